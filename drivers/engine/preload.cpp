@@ -343,7 +343,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
         out.free_spin = free_spin(model, out.displacement, out.wheel, model.scene.motion->speed);
       // F_L stays where the fastenings change F_N.
       out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
-      if (out.traction != 0) require_grip(model, out.traction);
+      require_grip(model, out.traction);
       continue;
     }
     if (iteration - first == kMaxNewton)

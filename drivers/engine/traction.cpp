@@ -32,10 +32,11 @@ double full_torque(const Model& model) {
 }
 
 void require_grip(const Model& model, double traction) {
+  if (traction == 0) return;
   const double x = model.scene.start_x();
   const double friction = model.contact->friction_at_rest(x);
   constexpr double kRounding = 1e-9;
-  if (traction != 0 && std::abs(traction) >= friction * (1 - kRounding))
+  if (std::abs(traction) >= friction * (1 - kRounding))
     throw InputError(fmt::format(
         "motion.traction.ramp = 0: the wheel would have long been rolling under F_L / F_N = {:.4g}, but the "
         "coefficient of friction is {:.4g} at x = {:.4g} m, where it starts: its patch would slide; state a "

@@ -18,7 +18,7 @@ bool is_title(const std::string& line) {
   const std::vector<double> numbers = leading_numbers(line, 2);
   if (numbers.empty()) return true;
   const std::size_t word = std::min(line.find_first_of(" \t"), line.size());
-  return numbers.size() == 1 && line.find_first_of(".,;+-\t", 0) >= word;
+  return numbers.size() == 1 && line.find_first_of(".,;+-") >= word;
 }
 
 }  // namespace

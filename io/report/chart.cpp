@@ -23,7 +23,12 @@ constexpr double kGap = 16;     // space between panels
 constexpr double kBottom = 46;  // space for tick labels and the label of the abscissa
 constexpr std::size_t kGroups = 1000;
 constexpr int kColours = 6;
-constexpr double kSameValue = 1e-12;  // difference by size: smaller ones are no range
+
+/// Returns true if the values differ by more than rounding.
+bool is_range(double low, double high) {
+  constexpr double kSameValue = 1e-12;  // difference by size
+  return high - low > kSameValue * std::max(std::abs(low), std::abs(high));
+}
 
 /// A linear map from values to pixels.
 struct Scale {
@@ -45,9 +50,8 @@ struct Extent {
   /// Range of positive length, for any added values.
   Range range() const {
     if (low > high) return {0, 1};
-    const double size = std::max(std::abs(low), std::abs(high));
-    if (high - low > kSameValue * size) return {low, high};
-    const double room = size == 0 ? 1 : size / 10;
+    if (is_range(low, high)) return {low, high};
+    const double room = low == 0 ? 1 : std::abs(low) / 10;
     return {low - room, high + room};
   }
 };
@@ -285,7 +289,7 @@ std::vector<std::size_t> thinned(std::span<const double> values, std::size_t gro
 }
 
 std::vector<double> ticks(double low, double high, int count) {
-  if (!(high - low > kSameValue * std::max(std::abs(low), std::abs(high)))) return {low};
+  if (!is_range(low, high)) return {low};
   const double step = tick_step(low, high, count);
   std::vector<double> values;
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)

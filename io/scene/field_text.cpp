@@ -14,9 +14,8 @@ std::optional<FieldText> field_text(const Key& key, const Field& field) {
   if (const auto* truth = std::get_if<bool*>(&field)) text.value = **truth ? "true" : "false";
   if (const auto* string = std::get_if<std::string*>(&field)) text.value = **string;
   if (const auto* damping = std::get_if<DampingField>(&field)) {
-    const bool classical = *damping->rayleigh_beta != 0;
-    text.value = fmt::format("{}", classical ? *damping->rayleigh_beta : *damping->high_frequency_fraction);
-    if (classical) text.unit = std::string("s");
+    text.value = fmt::format("{}", *number_at(field));
+    if (*damping->rayleigh_beta != 0) text.unit = std::string("s");
   }
   if (const auto* number = std::get_if<std::optional<double>*>(&field)) {
     if (!**number) return std::nullopt;

@@ -252,20 +252,16 @@ class Checker {
   }
 
   void check_on_rail(const RailSpec& rail, double x, std::vector<std::string> keys, const char* point) {
-    const double left = -rail.origin;
-    const double right = rail.length - rail.origin;
-    require(x >= left - kLengthTolerance && x <= right + kLengthTolerance, std::move(keys),
-            fmt::format("{}, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m", point, x, left, right));
+    check_on_rail(rail, x, x, std::move(keys), fmt::format("{}, x = {:.6g} m, is", point, x));
   }
 
-  /// The depths of a file, some of them at least.
-  void check_file_on_rail(const RailSpec& rail, const SurfaceSpec& surface, const std::string& table) {
-    const double first = surface.at + surface.file_x.front(), last = surface.at + surface.file_x.back();
-    const double left = -rail.origin, right = rail.length - rail.origin;
-    require(
-        last >= left && first <= right, {table + ".at", table + ".file", table},
-        fmt::format("the file's depths, x = {:.6g} m to {:.6g} m, are not on the rail, {:.6g} m to {:.6g} m",
-                    first, last, left, right));
+  /// A part at least of what goes from `first` to `last`; `subject`: a sentence's begin, with its verb.
+  void check_on_rail(const RailSpec& rail, double first, double last, std::vector<std::string> keys,
+                     const std::string& subject) {
+    const double left = -rail.origin;
+    const double right = rail.length - rail.origin;
+    require(last >= left - kLengthTolerance && first <= right + kLengthTolerance, std::move(keys),
+            fmt::format("{} not on the rail, {:.6g} m to {:.6g} m", subject, left, right));
   }
 
   void check_probe(const std::string& table, const ProbeSpec& probe) {
@@ -342,10 +338,10 @@ class Checker {
               {table + ".wavelength", table + ".length"}, "not one wave fits into the length");
     if (!surface.on_wheel()) {
       if (surface.file_x.empty())
-        check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
-      else
-        check_file_on_rail(*scene_.rail, surface, table);
-      return;
+        return check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
+      const double first = surface.at + surface.file_x.front(), last = surface.at + surface.file_x.back();
+      return check_on_rail(*scene_.rail, first, last, {table + ".at", table + ".file", table},
+                           fmt::format("the file's depths, x = {:.6g} m to {:.6g} m, are", first, last));
     }
     const double diameter = scene_.wheel->diameter;
     const double turn = std::numbers::pi * diameter;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tread {
 
@@ -112,6 +113,26 @@ HexNodes swept_nodes(const Section& section, int quad, Sweep sweep, double pitch
   return nodes;
 }
 
+namespace {
+
+/// P^T C P for a sparse P: the result's row r is the sum over k < terms of row(r, k), a row of C and its
+/// weight.
+template <class Row>
+HourglassMatrix combined(const HourglassMatrix& c, std::size_t terms, const Row& row) {
+  HourglassMatrix result{};
+  for (std::size_t r = 0; r < 12; ++r)
+    for (std::size_t s = 0; s < 12; ++s)
+      for (std::size_t i = 0; i < terms; ++i)
+        for (std::size_t j = 0; j < terms; ++j) {
+          const auto [from_r, weight_r] = row(r, i);
+          const auto [from_s, weight_s] = row(s, j);
+          result[r][s] += weight_r * c[from_r][from_s] * weight_s;
+        }
+  return result;
+}
+
+}  // namespace
+
 HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material) {
   // Polar decomposition of the centre Jacobian: x stands alone, the rotation about it has a closed form.
   const Mat3 map = jacobian(swept, {0, 0, 0});
@@ -146,19 +167,14 @@ HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Mat
 
   // q' = R^T q, hence C = R C' R^T for the components of every mode.
   const double turn[3][3] = {{1, 0, 0}, {0, c, -s}, {0, s, c}};
-  HourglassMatrix result{};
-  for (std::size_t row = 0; row < 12; ++row)
-    for (std::size_t column = 0; column < 12; ++column)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          result[row][column] +=
-              turn[row / 4][i] * local[index(i, row % 4)][index(j, column % 4)] * turn[column / 4][j];
-  return result;
+  return combined(local, 3, [&](std::size_t row, std::size_t i) {
+    return std::pair{index(i, row % 4), turn[row / 4][i]};
+  });
 }
 
 namespace {
 
-/// Of the modes s02, s13 or d02, d13.
+/// Values by the modes s02, s13 or d02, d13.
 struct ByDiagonals {
   Vec3 along02, along13;
 };
@@ -170,14 +186,9 @@ ByDiagonals by_diagonals(const Vec3& difference, const Vec3& sum, double scale) 
 /// C over gap, d02, d13 and h4 in place of h1 = gap / gap_by_h1, h2 = d02 + d13, h3 = d02 - d13 and h4.
 HourglassMatrix in_kernel_modes(const HourglassMatrix& c, double gap_by_h1) {
   const double from[4][4] = {{1 / gap_by_h1, 0, 0, 0}, {0, 1, 1, 0}, {0, 1, -1, 0}, {0, 0, 0, 1}};
-  HourglassMatrix result{};
-  for (std::size_t row = 0; row < 12; ++row)
-    for (std::size_t column = 0; column < 12; ++column)
-      for (std::size_t m = 0; m < 4; ++m)
-        for (std::size_t n = 0; n < 4; ++n)
-          result[row][column] +=
-              from[m][row % 4] * c[row / 4 * 4 + m][column / 4 * 4 + n] * from[n][column % 4];
-  return result;
+  return combined(c, 4, [&](std::size_t row, std::size_t m) {
+    return std::pair{row / 4 * 4 + m, from[m][row % 4]};
+  });
 }
 
 /// `matrix`: in the kernels' modes.

@@ -67,7 +67,7 @@ template <Sweep sweep, class Real>
 struct SweptElement {
   const SweptConstants<Real>& c;
 
-  /// Of component i of a field, whose sums and differences are s and d.
+  /// Strain by component i of a field with the sums s and the differences d.
   template <class V>
   TREAD_INLINE void strain(int i, const V (&s)[4], const V (&d)[4], Strain<V>& e) const {
     V a[kModes];
