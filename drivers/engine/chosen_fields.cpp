@@ -2,6 +2,7 @@
 
 #include "drivers/engine/device_fields.hpp"
 #include "drivers/engine/processor_fields.hpp"
+#include "drivers/engine/rank_device_fields.hpp"
 #include "drivers/engine/rank_fields.hpp"
 
 namespace tread {
@@ -11,10 +12,12 @@ namespace {
 template <class Real, class U>
 std::unique_ptr<NodeFields> fields_of(const Model& model) {
   if (model.contact) model.contact->run_on(nullptr);
-  if (std::shared_ptr<Device> device = chosen_device())
-    return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
-  if (std::shared_ptr<Ranks> ranks = chosen_ranks())
-    return std::make_unique<RankFields<Real, U>>(model, std::move(ranks));
+  std::shared_ptr<Device> device = chosen_device();
+  std::shared_ptr<Ranks> ranks = chosen_ranks();
+  if (device && ranks)
+    return std::make_unique<RankDeviceFields<Real, U>>(model, std::move(ranks), std::move(device));
+  if (device) return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
+  if (ranks) return std::make_unique<RankFields<Real, U>>(model, std::move(ranks));
   return std::make_unique<ProcessorFields<Real, U>>(model);
 }
 

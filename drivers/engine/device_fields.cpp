@@ -17,35 +17,17 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       device_(std::move(device)),
       kernels_(device_->template kernels<Real, U>()),
       marches_(*device_),
+      arrays_(*device_, model.mesh, this->internal(), this->q(), this->take_masses()),
       host_update_(model.mesh, this->inverse_masses()),
       contact_(model.contact.get()),
       looks_(*device_, model, this->unforced()) {
-  this->take_masses();
-  const Mesh& mesh = model.mesh;
   Movers movers = movers_of(model);
-  const std::size_t components = index(3 * mesh.slots);
-  for (Arrays* arrays : {&now_, &next_}) {
-    arrays->u = DeviceArray<U>(*device_, components);
-    arrays->v = DeviceArray<Real>(*device_, components);
+  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
+    marches_.add(arrays_.march(*device_, b, movers.marks), arrays_.variant(b));
+    looks_.sums().add(this->internal().elements(b));
   }
-  for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
-    const BlockElements<Real>& elements = this->internal().elements(b);
-    const SweptBlock& block = mesh.blocks[index(b)];
-    const auto& internal = this->internal();
-    marches_.add(std::make_unique<BlockMarch<Real>>(*device_, elements, internal.damping(b), movers.marks),
-                 {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
-                  internal.law(b)});
-    looks_.sums().add(elements);
-    const int law = this->law_state() ? elements.law() : 0;
-    const std::size_t values =
-        block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
-    for (Arrays* arrays : {&now_, &next_}) arrays->state.emplace_back(*device_, values);
-  }
-  if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
-  force_ = DeviceArray<Real>(*device_, components);
-  inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_masses(), index(mesh.slots)));
   choose_movers(model, std::move(movers));
-  if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
+  if (contact_ != nullptr) surfaces_.emplace(*device_, model.mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();
 }
@@ -113,17 +95,18 @@ void DeviceFields<Real, U>::send() {
   if (device_whole_) {
     if (std::exchange(host_moves_, false)) {
       add_patch_groups();
-      sent_.send(this->u(), this->v(), now_.u.data(), now_.v.data());
+      sent_.send(this->u(), this->v(), arrays_.now.u.data(), arrays_.now.v.data());
     }
     advance_device_lag();
     return;
   }
   TREAD_EXPECT(host_whole_);
-  now_.u.upload(this->u().data());
-  now_.v.upload(this->v().data());
-  if (this->q()) lag_.upload(this->q()->data());
-  for (std::size_t b = 0; b < now_.state.size(); ++b)
-    if (now_.state[b].size() > 0) now_.state[b].upload(this->law_state()->values(static_cast<int>(b)));
+  arrays_.now.u.upload(this->u().data());
+  arrays_.now.v.upload(this->v().data());
+  if (this->q()) arrays_.lag.upload(this->q()->data());
+  for (std::size_t b = 0; b < arrays_.now.state.size(); ++b)
+    if (arrays_.now.state[b].size() > 0)
+      arrays_.now.state[b].upload(this->law_state()->values(static_cast<int>(b)));
   device_whole_ = true;
 }
 
@@ -146,10 +129,8 @@ void DeviceFields<Real, U>::advance_device_lag() {
   if (lag_step_ == 0) return;
   for (int b = 0; b < marches_.blocks(); ++b) {
     if (!this->q()->branch(b)) continue;
-    const auto [kept, gained] = this->q()->advance_of(b, lag_step_);
     const SweptBlock& block = this->mesh().blocks[index(b)];
-    const std::int64_t first = dof(block.base, 0);
-    kernels_.advance_lag(3 * block.slots(), kept, gained, now_.v.data() + first, lag_.data() + first);
+    arrays_.advance_lag(b, lag_step_, block.base, block.base + block.slots());
   }
   lag_step_ = 0;
 }
@@ -166,30 +147,11 @@ template <class Real, class U>
 void DeviceFields<Real, U>::fetch_nodes() {
   if (host_whole_) return;
   send();
-  now_.u.download(this->u().data());
-  now_.v.download(this->v().data());
-  if (this->q()) lag_.download(this->q()->values().data());
+  arrays_.now.u.download(this->u().data());
+  arrays_.now.v.download(this->v().data());
+  if (this->q()) arrays_.lag.download(this->q()->values().data());
   fetch_law_state();
   host_whole_ = true;
-}
-
-template <class Real, class U>
-MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block) {
-  MarchFields<Real, U> fields;
-  fields.u = now_.u.data();
-  fields.v = now_.v.data();
-  if (this->internal().damping(block) != 0)
-    fields.added = this->internal().branch(block) != 0 ? lag_.data() : now_.v.data();
-  fields.inverse_mass = inverse_mass_.data();
-  fields.moved_u = next_.u.data();
-  fields.moved_v = next_.v.data();
-  fields.force = force_.data();
-  fields.group_mark = device_group_mark_.data();
-  fields.held = held_.data();
-  fields.host_force = device_f_.data();
-  fields.state = now_.state[index(block)].data();
-  fields.moved_state = next_.state[index(block)].data();
-  return fields;
 }
 
 /// Begins the next step by teams that do not await the host, about the patch when the tractions of this one
@@ -207,12 +169,13 @@ void DeviceFields<Real, U>::begin_next() {
       next,
       {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
       [&](int block) { return march_fields(block); });
-  device_contact_->search_ahead(now_.u.data(), now_.v.data(), {next.frame, time_ + loads_.dt, loads_.dt});
+  device_contact_->search_ahead(arrays_.now.u.data(), arrays_.now.v.data(),
+                                {next.frame, time_ + loads_.dt, loads_.dt});
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
-  kernels_.sum_stations(ties_->sums(), force_.data());
+  kernels_.sum_stations(ties_->sums(), arrays_.force().data());
   PrimaryBlocks<Real> primary;
   for (int b = 0; b < marches_.blocks(); ++b) {
     if (const PrimaryNodes nodes = ties_->primary(b); nodes.count > 0)
@@ -228,9 +191,9 @@ template <class Real, class U>
 void DeviceFields<Real, U>::tie(const StepLoads& loads) {
   if (!ties_) return;
   move_primary(loads);
-  kernels_.hold(static_cast<std::int64_t>(held_ties_.size()), held_ties_.data(), next_.u.data(),
-                next_.v.data());
-  kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
+  kernels_.hold(static_cast<std::int64_t>(held_ties_.size()), held_ties_.data(), arrays_.next.u.data(),
+                arrays_.next.v.data());
+  kernels_.follow(ties_->secondary(), arrays_.next.u.data(), arrays_.next.v.data());
 }
 
 template <class Real, class U>
@@ -239,7 +202,7 @@ void DeviceFields<Real, U>::start_contact() {
   device_->use(kPatchQueue);
   marches_.await_near();
   device_->use(kMainQueue);
-  device_contact_->start(next_.u.data(), next_.v.data());
+  device_contact_->start(arrays_.next.u.data(), arrays_.next.v.data());
 }
 
 /// Tractions wait for the nodes about the patch alone, unless surfaces have tied nodes.
@@ -255,7 +218,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
   tie(loads);
   if (tied_surfaces_) start_contact();
-  std::swap(now_, next_);
+  std::swap(arrays_.now, arrays_.next);
   ++step_;
   loads_ = loads;
   host_moves_ = true;
@@ -286,7 +249,7 @@ void DeviceFields<Real, U>::take_host_forces() {
 template <class Real, class U>
 void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
   if (!surfaces_) return;
-  surfaces_->fetch(contact_->near(wheel, dt), now_.u.data(), now_.v.data());
+  surfaces_->fetch(contact_->near(wheel, dt), arrays_.now.u.data(), arrays_.now.v.data());
   const std::int64_t groups = surfaces_->groups();
   ranges_of_values(groups, kGroupValues * groups, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
@@ -303,7 +266,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double dt) {
   send();
   time_ = time;
-  device_contact_->search(now_.u.data(), now_.v.data(), {wheel, time, dt});
+  device_contact_->search(arrays_.now.u.data(), arrays_.now.v.data(), {wheel, time, dt});
 }
 
 /// Samples read the points of the patch.
@@ -339,19 +302,21 @@ void DeviceFields<Real, U>::move_rest(const StepLoads& loads, bool /*measured*/)
 template <class Real, class U>
 typename DeviceLooks<Real, U>::Motions DeviceFields<Real, U>::motions() {
   if (!looks_.opening()) send();
-  return {{now_.u.data(), now_.v.data()}, {next_.u.data(), next_.v.data()}, inverse_mass_.data()};
+  return {{arrays_.now.u.data(), arrays_.now.v.data()},
+          {arrays_.next.u.data(), arrays_.next.v.data()},
+          arrays_.inverse_mass()};
 }
 
 template <class Real, class U>
 const ElementSums& DeviceFields<Real, U>::energies() {
   return looks_.elements(marches_, [&](int b) {
     typename DeviceSums<Real, U>::ElementFields of;
-    of.u = next_.u.data();
-    of.state = now_.state[index(b)].data();
-    if (this->energy_by_forces(b) && this->internal().damping(b) != 0) of.v = next_.v.data();
+    of.u = arrays_.next.u.data();
+    of.state = arrays_.now.state[index(b)].data();
+    if (this->energy_by_forces(b) && this->internal().damping(b) != 0) of.v = arrays_.next.v.data();
     if (!this->q() || !this->q()->branch(b)) return of;
     of.branch = &*this->q()->branch(b);
-    of.lag = lag_.data();
+    of.lag = arrays_.lag.data();
     return of;
   });
 }
@@ -370,12 +335,12 @@ void DeviceFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& m
   device_->after(kSearchQueue);
   const Anchoring anchoring(mean, wheel, dt);
   for (const int b : body.blocks())
-    kernels_.anchor(looks_.sums().anchored(marches_.block(b).at(loads_), b, anchoring), now_.u.data(),
-                    now_.v.data());
+    kernels_.anchor(looks_.sums().anchored(marches_.block(b).at(loads_), b, anchoring), arrays_.now.u.data(),
+                    arrays_.now.v.data());
   wheel = anchoring.moved();
   looks_.forget();
-  if (ties_) kernels_.follow(ties_->secondary(), now_.u.data(), now_.v.data());
-  shown_.fetch(host_groups_, now_.u.data(), now_.v.data(), this->u(), this->v());
+  if (ties_) kernels_.follow(ties_->secondary(), arrays_.now.u.data(), arrays_.now.v.data());
+  shown_.fetch(host_groups_, arrays_.now.u.data(), arrays_.now.v.data(), this->u(), this->v());
   host_moves_ = host_ties_;  // tied nodes have still to follow there
   if (!device_contact_) fetch_surfaces(wheel, dt);
 }

@@ -15,6 +15,7 @@
 
 #include "drivers/engine/device_looks.hpp"
 #include "drivers/engine/device_movers.hpp"
+#include "drivers/engine/march_arrays.hpp"
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/sent_groups.hpp"
 #include "drivers/engine/shown_groups.hpp"
@@ -39,8 +40,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   bool elsewhere() const override { return !host_whole_; }
   void show(const WatchedNodes& nodes) override {
     send();
-    shown_.fetch(nodes.groups(), now_.u.data(), now_.v.data(), this->u(), this->v());
-    if (this->q()) lag_.download(this->q()->values().data());
+    shown_.fetch(nodes.groups(), arrays_.now.u.data(), arrays_.now.v.data(), this->u(), this->v());
+    if (this->q()) arrays_.lag.download(this->q()->values().data());
     fetch_law_state();
   }
   bool ties_follow() const override { return ties_ && !host_whole_; }
@@ -85,16 +86,11 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
  private:
   using Base = PreciseFields<Real, U>;
-  /// Fields that a step reads, and where it writes those that elements of several teams read.
-  struct Arrays {
-    DeviceArray<U> u;
-    DeviceArray<Real> v;
-    std::vector<DeviceArray<Real>> state;  ///< by block; empty where its law has none
-  };
-
   void choose_movers(const Model& model, Movers movers);
   void make_room();
-  MarchFields<Real, U> march_fields(int block);
+  MarchFields<Real, U> march_fields(int block) {
+    return arrays_.fields(block, device_group_mark_.data(), held_.data(), device_f_.data());
+  }
   void begin_next();
   void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
@@ -117,8 +113,9 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void send();
   void add_patch_groups();
   void fetch_law_state() {
-    for (std::size_t b = 0; b < now_.state.size(); ++b)
-      if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
+    for (std::size_t b = 0; b < arrays_.now.state.size(); ++b)
+      if (arrays_.now.state[b].size() > 0)
+        arrays_.now.state[b].download(this->law_state()->values(static_cast<int>(b)));
   }
   typename DeviceLooks<Real, U>::Motions motions();
   const NodeSums& sums(const BodyFrame& wheel) { return looks_.nodes(marches_, motions(), wheel); }
@@ -130,8 +127,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::shared_ptr<Device> device_;
   FieldKernels<Real, U>& kernels_;
   MarchFan<Real, U> marches_;
-  Arrays now_, next_;
-  DeviceArray<Real> lag_, force_, inverse_mass_;
+  MarchArrays<Real, U> arrays_;
 
   std::vector<std::int64_t> host_groups_;  ///< the host's groups of kLanes slots, ascending
   std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves, kKeeps or kHolds

@@ -185,8 +185,8 @@ class PreciseFields : public NodeFields {
   const BasicInternalForce<Real, U>& internal() const { return *operator_; }
   const Real* inverse_masses() const { return inverse_mass_.data(); }
   /// Gets the masses of nodes that steps move (groups_with_mass()); the memory of others stays untouched.
-  /// Nodes on which more than elements acts then move after the elements.
-  void take_masses() {
+  /// Nodes on which more than elements acts then move after the elements. Returns inverse_masses().
+  const Real* take_masses() {
     const std::span<const unsigned char> groups = groups_with_mass();
     const double* const mass = model_->mass.data();
     for_chunks(mesh().slots / kLanes, [&](std::int64_t first, std::int64_t last) {
@@ -197,6 +197,7 @@ class PreciseFields : public NodeFields {
       }
     });
     update_.defer(model_->loaded_slots());
+    return inverse_masses();
   }
 
   /// By tile: the loop takes the tile behind it along.

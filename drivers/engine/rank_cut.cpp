@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -63,6 +64,12 @@ std::size_t tile_of(const std::vector<std::int64_t>& first, std::int64_t slot) {
   return index(at - first.begin()) - 1;
 }
 
+/// Adds a tile behind those of the stretches.
+void append(std::vector<TileStretch>& stretches, std::size_t tile) {
+  if (stretches.empty() || stretches.back().last != tile) stretches.push_back({tile, tile});
+  stretches.back().last = tile + 1;
+}
+
 /// Calls visit(tile, tile of the station behind its last element, nodes there) for tiles with elements.
 template <class Visit>
 void for_each_link(const Mesh& mesh, const Visit& visit) {
@@ -94,19 +101,23 @@ void add_ties(const Model& model, std::vector<TileWork>& work) {
   for (const std::int64_t slot : model.ties->secondary_slots()) work[tile_of(first, slot)].cost += kTiedNode;
 }
 
-RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares)
+RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares,
+                 Borders borders)
     : rank_(work.size()),
       owner_(index(model.mesh.slots / kLanes)),
       first_group_(first_groups(model.mesh)),
-      stretches_(shares.size()) {
+      stretches_(shares.size()),
+      halos_(shares.size()),
+      before_(shares.size()) {
   deal_out(model, work, shares);
   for (std::size_t tile = 0; tile < rank_.size(); ++tile) {
     std::fill(owner_.begin() + first_group_[tile], owner_.begin() + first_group_[tile + 1], rank_[tile]);
-    std::vector<TileStretch>& own = stretches_[index(rank_[tile])];
-    if (own.empty() || own.back().last != tile) own.push_back({tile, tile});
-    own.back().last = tile + 1;
+    append(stretches_[index(rank_[tile])], tile);
   }
-  join_tiles(model.mesh);
+  if (borders == Borders::joints)
+    join_tiles(model.mesh);
+  else
+    find_halos(model.mesh);
 }
 
 /// Tiles that the loop takes together are one piece. Pieces are linked along the sweep and by ties.
@@ -137,6 +148,18 @@ void RankCut::join_tiles(const Mesh& mesh) {
     if (rank_[tile] != rank_[next])
       joints_.push_back({rank_[tile], rank_[next], tile, first_group_[next] * kLanes, nodes});
   });
+}
+
+void RankCut::find_halos(const Mesh& mesh) {
+  std::vector<std::set<std::size_t>> tiles(halos_.size());
+  for_each_link(mesh, [&](std::size_t tile, std::size_t next, std::int64_t /*nodes*/) {
+    if (rank_[tile] == rank_[next]) return;
+    tiles[index(rank_[tile])].insert(next);
+    tiles[index(rank_[next])].insert(tile);
+    before_[index(rank_[next])].push_back(tile);
+  });
+  for (std::size_t rank = 0; rank < halos_.size(); ++rank)
+    for (const std::size_t tile : tiles[rank]) append(halos_[rank], tile);
 }
 
 }  // namespace tread

@@ -21,6 +21,12 @@ struct Joint {
   std::int64_t nodes = 0;
 };
 
+/// Nodes beside a rank's tiles whose motion it needs.
+enum class Borders {
+  joints,  ///< stations of Joints: each element is one rank's
+  halos,   ///< all of the tiles before and behind: forces are complete on each rank's own nodes
+};
+
 /// The rank that searches for contact and solves it.
 inline constexpr int kContactRank = 0;
 
@@ -51,25 +57,33 @@ class RankCut {
  public:
   /// `work`: tile_work(); `shares`: of it, by rank, which add up to 1. Ranks are left without tiles where
   /// there are few.
-  RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares);
+  RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares,
+          Borders borders = Borders::joints);
 
   int ranks() const { return static_cast<int>(stretches_.size()); }
   std::size_t tiles() const { return rank_.size(); }
   int rank_of(std::size_t tile) const { return rank_[tile]; }
   int owner(std::int64_t group) const { return owner_[index(group)]; }
   const std::vector<TileStretch>& stretches(int rank) const { return stretches_[index(rank)]; }
+  /// None with halos.
   const std::vector<Joint>& joints() const { return joints_; }
+  /// Tiles of others before and behind a rank's own; none with joints.
+  const std::vector<TileStretch>& halo(int rank) const { return halos_[index(rank)]; }
+  /// Tiles of others whose last element ends in a tile of the rank, among those.
+  const std::vector<std::size_t>& before(int rank) const { return before_[index(rank)]; }
   /// First group of a tile, and after the last one the number of groups.
   std::int64_t first_group(std::size_t tile) const { return first_group_[tile]; }
 
  private:
   void deal_out(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares);
   void join_tiles(const Mesh& mesh);
+  void find_halos(const Mesh& mesh);
 
   std::vector<int> rank_;   ///< by tile
   std::vector<int> owner_;  ///< by group
   std::vector<std::int64_t> first_group_;
-  std::vector<std::vector<TileStretch>> stretches_;
+  std::vector<std::vector<TileStretch>> stretches_, halos_;
+  std::vector<std::vector<std::size_t>> before_;
   std::vector<Joint> joints_;
 };
 

@@ -28,19 +28,19 @@ TileShare share_of(const RankCut& cut, Ranks& ranks) {
 
 /// By the ranks' shares; where they have none yet, by the expected ones, which they keep.
 template <class Internal>
-RankCut cut_of(const Model& model, const Internal& internal, Ranks& ranks) {
+RankCut cut_of(const Model& model, const Internal& internal, Ranks& ranks, Borders borders) {
   const std::vector<TileWork> work = tile_work(model, internal);
   if (ranks.shares.empty()) ranks.shares = expected_shares(model, work, ranks.count());
-  return {model, work, ranks.shares};
+  return {model, work, ranks.shares, borders};
 }
 
 }  // namespace
 
 template <class Real, class U>
-RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
+RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks, Borders borders)
     : Base(model),
       ranks_(std::move(ranks)),
-      cut_(cut_of(model, this->internal(), *ranks_)),
+      cut_(cut_of(model, this->internal(), *ranks_, borders)),
       tiles_(share_of(cut_, *ranks_)),
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),
@@ -50,7 +50,6 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       patch_tiles_(model, this->joined_tiles()) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
-  if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
   if (model.contact && !solves()) model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
   for (int rank = 0; rank < ranks_->count(); ++rank) {
     if (rank == ranks_->rank()) continue;
@@ -58,7 +57,10 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
     patch_forces_.add(rank, there, held_);
     other_forces_.add(rank, there, held_);
     if (solves() || rank == kContactRank) patch_motion_.add(rank, shared_.near(), solves() ? there : held_);
+    for (std::size_t group = 0; group < there.forced.size(); ++group)
+      if (there.forced[group] != 0 && owns(static_cast<std::int64_t>(group))) held_.deferred[group] = 1;
   }
+  if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
   this->take_masses();
   take_near();
 }
@@ -85,9 +87,11 @@ bool RankFields<Real, U>::follow_patch(const BodyFrame& wheel, double dt) {
 template <class Real, class U>
 void RankFields<Real, U>::choose_patch(const BodyFrame& wheel, double ahead) {
   shared_.follow(wheel, ahead);
+  bring(shared_.near());
   take_near();
   share_groups(this->u().data(), shared_.near());
   share_groups(this->v().data(), shared_.near());
+  patch_chosen();
   apart_ = patch_tiles_.find(wheel, ahead);
   if (apart_) patch_tiles_.share(tiles_.own, near_, elsewhere_);
 }
@@ -156,6 +160,7 @@ void RankFields<Real, U>::share_groups(T* field, const std::vector<std::int64_t>
 
 template <class Real, class U>
 void RankFields<Real, U>::show(const WatchedNodes& nodes) {
+  bring(nodes.groups());
   share_groups(this->u().data(), nodes.groups());
   share_groups(this->v().data(), nodes.groups());
   if (this->q()) share_groups(this->q()->values().data(), nodes.groups());
@@ -214,17 +219,22 @@ void RankFields<Real, U>::send_all_tiles(Way way) {
   send_law_state(way);
 }
 
-/// Values of the other ranks' tiles. Those of the tiles [first, last) lie at [place(first), place(last)).
+/// Values of the other ranks' tiles, from rank 0 with their halos. Those of the tiles [first, last) lie at
+/// [place(first), place(last)).
 template <class Real, class U>
 template <class T, class Place>
 void RankFields<Real, U>::send_tiles(Way way, T* values, const Place& place) {
   std::vector<RankSegment> of_tiles;
   for (int rank = 1; rank < cut_.ranks(); ++rank) {
     if (ranks_->rank() != 0 && ranks_->rank() != rank) continue;
-    for (const TileStretch& stretch : cut_.stretches(rank))
-      of_tiles.push_back(
-          {ranks_->rank() == 0 ? rank : 0,
-           std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
+    const auto add = [&](const std::vector<TileStretch>& stretches) {
+      for (const TileStretch& stretch : stretches)
+        of_tiles.push_back(
+            {ranks_->rank() == 0 ? rank : 0,
+             std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
+    };
+    add(cut_.stretches(rank));
+    if (way == Way::from_rank_0) add(cut_.halo(rank));
   }
   const bool sends = (way == Way::from_rank_0) == (ranks_->rank() == 0);
   exchange_one_way(sends, of_tiles);
@@ -232,16 +242,7 @@ void RankFields<Real, U>::send_tiles(Way way, T* values, const Place& place) {
 
 template <class Real, class U>
 void RankFields<Real, U>::send_law_state(Way way) {
-  std::size_t before = 0;
-  for (std::size_t b = 0; this->law_state() && b < this->mesh().blocks.size(); ++b) {
-    const std::size_t tiles = this->mesh().blocks[b].tiles.size();
-    const BlockElements<Real>& elements = this->internal().elements(static_cast<int>(b));
-    const auto place = [&](std::size_t tile) {
-      return elements.state_place(static_cast<int>(std::clamp(tile, before, before + tiles) - before));
-    };
-    if (place(before + tiles) > 0) send_tiles(way, this->law_state()->values(static_cast<int>(b)), place);
-    before += tiles;
-  }
+  for_law_blocks([&](int b, const auto& place) { send_tiles(way, this->law_state()->values(b), place); });
 }
 
 template <class Real, class U>
@@ -280,8 +281,7 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
     this->internal().internal_force(tiles_.own, this->force_fields());
   else
     this->internal().move(tiles_.own, this->update(), loads, this->force_fields());
-  exchange_patch_forces();
-  exchange_other_forces();
+  exchange_forces();
 }
 
 /// Forces of the patch go to kContactRank before the elements elsewhere; its motion comes back with the other
@@ -341,8 +341,9 @@ void RankFields<Real, U>::advance_lag(double dt) {
   const auto advance = [&](std::int64_t first, std::int64_t last) {
     this->q()->advance(this->v().data(), dt, first * kLanes, last * kLanes);
   };
-  for (const TileStretch& stretch : tiles_.own)
-    advance(cut_.first_group(stretch.first), cut_.first_group(stretch.last));
+  for (const auto* stretches : {&own_stretches(), &halo()})
+    for (const TileStretch& stretch : *stretches)
+      advance(cut_.first_group(stretch.first), cut_.first_group(stretch.last));
   for (const Joint& joint : cut_.joints())
     if (joint.near == ranks_->rank()) advance(joint.slot / kLanes, joint.slot / kLanes + joint.nodes);
 }
@@ -366,8 +367,11 @@ void RankFields<Real, U>::spoil() {
   std::vector<unsigned char> first_lane(moved_.size(), 0);  // that this rank does not move
   for (const Joint& joint : cut_.joints())
     if (joint.near == ranks_->rank()) std::fill_n(first_lane.begin() + joint.slot / kLanes, joint.nodes, 1);
+  for (const TileStretch& stretch : halo())
+    std::fill(first_lane.begin() + cut_.first_group(stretch.first),
+              first_lane.begin() + cut_.first_group(stretch.last), kLanes);
   for (std::int64_t group = 0; group < std::ssize(moved_); ++group) {
-    if (cut_.owner(group) == ranks_->rank()) continue;
+    if (owns(group)) continue;
     const int first = first_lane[index(group)];
     const bool complete =
         held_.forced[index(group)] != 0 || (solves() && std::binary_search(near.begin(), near.end(), group));

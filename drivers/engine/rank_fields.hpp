@@ -26,9 +26,10 @@
 namespace tread {
 
 template <class Real, class U>
-class RankFields final : public PreciseFields<Real, U> {
+class RankFields : public PreciseFields<Real, U> {
  public:
-  RankFields(const Model& model, std::shared_ptr<Ranks> ranks);
+  /// `borders`: joints where the processor computes the elements.
+  RankFields(const Model& model, std::shared_ptr<Ranks> ranks, Borders borders = Borders::joints);
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
@@ -57,13 +58,49 @@ class RankFields final : public PreciseFields<Real, U> {
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
   void list_state(StateList& list) override;
 
+ protected:
+  /// The views get the motion of these groups, as far as they are this rank's.
+  virtual void bring(const std::vector<std::int64_t>& /*groups*/) {}
+  /// deferred() has changed.
+  virtual void patch_chosen() {}
+
+  bool solves() const { return ranks_->rank() == kContactRank; }
+  const RankCut& cut() const { return cut_; }
+  const std::vector<TileStretch>& own_stretches() const { return tiles_.own; }
+  const std::vector<TileStretch>& halo() const { return cut_.halo(ranks_->rank()); }
+  const std::vector<std::size_t>& tiles_before() const { return cut_.before(ranks_->rank()); }
+  bool owns(std::int64_t group) const { return cut_.owner(group) == ranks_->rank(); }
+  /// Groups that elements alone do not move: those that wait for forces of others, that others wait for, and
+  /// all about the patch.
+  const GroupMarks& deferred() const { return deferred_; }
+  /// Sends the forces of the elements, and receives those of other ranks.
+  void exchange_forces() {
+    exchange_patch_forces();
+    exchange_other_forces();
+  }
+  void move_patch(const StepLoads& loads);
+  /// Calls visit(block, place): values of the state of the block's law in the tiles [first, last) of all lie
+  /// at [place(first), place(last)). Blocks without state are left out.
+  template <class Visit>
+  void for_law_blocks(const Visit& visit) {
+    std::size_t before = 0;
+    for (std::size_t b = 0; this->law_state() && b < this->mesh().blocks.size(); ++b) {
+      const std::size_t tiles = this->mesh().blocks[b].tiles.size();
+      const BlockElements<Real>& elements = this->internal().elements(static_cast<int>(b));
+      const auto place = [&elements, before, tiles](std::size_t tile) {
+        return elements.state_place(static_cast<int>(std::clamp(tile, before, before + tiles) - before));
+      };
+      if (place(before + tiles) > 0) visit(static_cast<int>(b), place);
+      before += tiles;
+    }
+  }
+
  private:
   using Base = PreciseFields<Real, U>;
 
   /// True where the views hold all values of the present.
   bool whole() const { return gathered_ && ranks_->rank() == 0; }
   const TileShare* share() const override { return whole() ? nullptr : &tiles_; }
-  bool solves() const { return ranks_->rank() == kContactRank; }
   void choose_patch(const BodyFrame& wheel, double ahead);
   void spread_points();
   auto carries() const {
@@ -71,7 +108,6 @@ class RankFields final : public PreciseFields<Real, U> {
   }
   void exchange_patch_forces();
   void exchange_other_forces();
-  void move_patch(const StepLoads& loads);
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);

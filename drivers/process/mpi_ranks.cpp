@@ -75,7 +75,7 @@ class MpiRanks final : public Ranks {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
-    on_host_ = alike(host_name()).count;
+    on_host_ = alike(host_name());
     on_cores_ = alike(cores_text());
     if (level < MPI_THREAD_SERIALIZED)
       throw ResourceError("this MPI allows a process no threads that exchange in turn");
@@ -84,7 +84,8 @@ class MpiRanks final : public Ranks {
 
   int rank() const override { return rank_; }
   int count() const override { return count_; }
-  int on_host() const override { return on_host_; }
+  int on_host() const override { return on_host_.count; }
+  int place_on_host() const override { return on_host_.place; }
   int on_cores() const override { return on_cores_.count; }
   int place_on_cores() const override { return on_cores_.place; }
 
@@ -176,8 +177,8 @@ class MpiRanks final : public Ranks {
     return seconds;
   }
 
-  int rank_ = 0, count_ = 1, on_host_ = 1;
-  Alike on_cores_{1, 0};
+  int rank_ = 0, count_ = 1;
+  Alike on_host_{1, 0}, on_cores_{1, 0};
   std::vector<int> counts_, places_;
   std::vector<MPI_Request> requests_;  ///< that have begun
 };

@@ -15,6 +15,7 @@
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/run_model.hpp"
 #include "io/report/plain_text.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -84,6 +85,7 @@ SealedContent receive(Ranks& ranks) {
 const std::string kThreads = "ranks/threads";
 const std::string kBackend = "ranks/backend";
 const std::string kBound = "ranks/bound";
+const std::string kDevice = "ranks/device";
 const std::string kShares = "ranks/shares";
 
 /// The run of rank 0 on this rank.
@@ -94,6 +96,7 @@ class FollowedRun {
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
                  sealed_entry<std::string>(content, kBackend),
                  sealed_value<std::int64_t>(content, kBound) != 0});
+    choose_device(sealed_entry<std::string>(content, kDevice), ranks.place_on_host());
     const RunOrder order = unpack_order(content);
     unpack_results(content, results_);
     const ResolvedScene made = resolve_scene(order.scene, order.overrides);
@@ -154,14 +157,15 @@ Word follow_run(Ranks& ranks) {
 
 Followers::Followers() : ranks_(chosen_ranks()) {}
 
-void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) {
+void Followers::begin(SealedContent run, Simulation& simulation, const RunOptions& options) {
   if (absent()) return;
   clock_ = {};
   leave_to_spread(simulation, run);
   say(*ranks_, Word::begin);
-  run[kThreads] = std::vector<std::int64_t>{threads.number};
-  run[kBackend] = threads.backend;
-  run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
+  run[kThreads] = std::vector<std::int64_t>{options.threads.number};
+  run[kBackend] = options.threads.backend;
+  run[kBound] = std::vector<std::int64_t>{options.threads.bind ? 1 : 0};
+  run[kDevice] = !chosen_device() ? "cpu" : options.device == "auto" ? "gpu" : options.device;
   run[kShares] = ranks_->shares;
   send(*ranks_, std::move(run));
   simulation.spread();

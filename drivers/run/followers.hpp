@@ -23,7 +23,7 @@ class Followers {
   bool absent() const { return !ranks_; }
 
   /// Hands the run over, at its beginning or anew: its content between two steps, as pack_run() packs it.
-  void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads);
+  void begin(SealedContent run, Simulation& simulation, const RunOptions& options);
   /// A step on all ranks.
   void step(Simulation& simulation);
   /// Compares the times of the ranks now and then. Returns true where other shares of the work, which the

@@ -73,7 +73,7 @@ void Rolling::restore(const SealedContent& run) {
 /// The other ranks take the run over as a process that resumes it would.
 void Rolling::begin_ranks() {
   if (followers_.absent()) return;
-  followers_.begin(pack_all(""), *simulation_, session_->options.threads);
+  followers_.begin(pack_all(""), *simulation_, session_->options);
   session_->progress.say("[ranks] " + followers_.description(0));
 }
 
@@ -83,7 +83,7 @@ void Rolling::even_ranks() {
   followers_.fetch(*simulation_);
   SealedContent run = pack_all("");
   restore(run);
-  followers_.begin(std::move(run), *simulation_, session_->options.threads);
+  followers_.begin(std::move(run), *simulation_, session_->options);
   session_->progress.say(fmt::format("[ranks] {}: shared anew by the ranks' times; {}",
                                      instant(simulation_->time(), simulation_->steps()),
                                      followers_.shares()));

@@ -9,12 +9,19 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
 #include "drivers/process/version.hpp"
 #include "kernels/device/device.hpp"
 
 namespace tread {
 
 namespace {
+
+/// Where steps are taken, as far as it shows in their bits: ranks with devices solve the contact elsewhere
+/// than one process with a device.
+std::string stepping_device() {
+  return device_name() + (chosen_ranks() && chosen_device() ? ", of several ranks" : "");
+}
 
 void pack_texts(const std::string& group, const std::vector<std::string>& texts, SealedContent& content) {
   content[group + "/count"] = std::vector<std::int64_t>{static_cast<std::int64_t>(texts.size())};
@@ -183,7 +190,7 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
                        std::string patch) {
   SealedContent content = pack_order(order);
   content["made/instruction_set"] = std::string(model.internal->instruction_set());
-  content["made/device"] = device_name();
+  content["made/device"] = stepping_device();
   content["made/lanes"] = std::vector<std::int64_t>{kLanes};
   content["made/mesh"] = fingerprint(model);
   content["made/state_hash"] = std::vector{static_cast<std::int64_t>(simulation.state_hash())};
@@ -281,9 +288,9 @@ std::string other_origin(const SealedContent& content, const Model& model) {
                        model.internal->instruction_set());
   const std::string device =
       content.contains("made/device") ? sealed_entry<std::string>(content, "made/device") : "cpu";
-  if (device != device_name())
+  if (device != stepping_device())
     return fmt::format("it was written by steps on the device {}, this run takes them on {}", device,
-                       device_name());
+                       stepping_device());
   return "";
 }
 

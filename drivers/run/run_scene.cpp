@@ -333,12 +333,8 @@ std::filesystem::path dated_folder(const std::filesystem::path& scene) {
 /// Threads and device of a run.
 void take_machine(const RunOptions& options) {
   use_threads(options.threads);
-  choose_device(options.device);
-  if (chosen_ranks() && chosen_device())
-    throw InputError(
-        fmt::format("--device {}: the steps of several ranks are the processors'; start one process, or "
-                    "leave --device cpu",
-                    options.device));
+  const std::shared_ptr<Ranks> ranks = chosen_ranks();
+  choose_device(options.device, ranks ? ranks->place_on_host() : 0);
 }
 
 }  // namespace

@@ -174,10 +174,8 @@ MarchBlock<Real> BlockMarch<Real>::in_tiles(const StepLoads& loads, MarchRuns ru
 template <class Real>
 MarchBlock<Real> BlockMarch<Real>::awaiting(const StepLoads& loads, MarchRuns near) {
   MarchBlock<Real> block = in_tiles(loads, near);
-  block.left_out = std::exchange(block.marched, {});
-  block.list = awaiting_.data();
-  block.listed = static_cast<int>(awaiting_.size());
-  return block;
+  block.left_out = block.marched;
+  return listed(block, awaiting_);
 }
 
 template <class Real>
@@ -187,11 +185,37 @@ MarchBlock<Real> BlockMarch<Real>::beyond(const StepLoads& loads, MarchRuns near
     block.marched = {(near.first + near.count) % block_.runs(), block_.runs() - near.count};
     return block;
   }
-  block.marched = {};
   block.left_out = near;
-  block.list = others_.data();
-  block.listed = static_cast<int>(others_.size());
-  return block;
+  return listed(block, others_);
+}
+
+template <class Real>
+void BlockMarch<Real>::choose(Device& device, std::span<const ChosenTile> tiles) {
+  std::vector<int> of_runs;
+  std::vector<int> of_tiles;
+  for (int run = 0; run < block_.runs(); ++run) {
+    const MarchRuns in_run = as_tiles({run, 1});
+    const auto of_run = tiles.subspan(index(in_run.first), index(in_run.count));
+    const bool whole =
+        std::all_of(of_run.begin(), of_run.end(), [](ChosenTile tile) { return tile == ChosenTile::yes; });
+    for (int part = 0; part < block_.parts; ++part) {
+      if (whole) of_runs.push_back(run * block_.parts + part);
+      for (int i = 0; !whole && i < in_run.count; ++i)
+        if (of_run[index(i)] != ChosenTile::no) of_tiles.push_back((in_run.first + i) * block_.parts + part);
+    }
+  }
+  chosen_runs_ = DeviceArray<int>(device, std::span<const int>(of_runs));
+  chosen_tiles_ = DeviceArray<int>(device, std::span<const int>(of_tiles));
+}
+
+template <class Real>
+MarchBlock<Real> BlockMarch<Real>::chosen_runs(const StepLoads& loads) {
+  return listed(at(loads), chosen_runs_);
+}
+
+template <class Real>
+MarchBlock<Real> BlockMarch<Real>::chosen_tiles(const StepLoads& loads) {
+  return listed(in_tiles(loads, {}), chosen_tiles_);
 }
 
 /// A run reads a tile before and a tile after its own.

@@ -11,6 +11,9 @@
 
 namespace tread {
 
+/// Choice of a tile for a march: with its run where all others of that are chosen so, or by itself.
+enum class ChosenTile : unsigned char { no, yes, apart };
+
 template <class Real>
 class BlockMarch {
  public:
@@ -27,6 +30,10 @@ class BlockMarch {
   /// Over other runs, by teams that await the host, run by run of one tile, and by all others.
   MarchBlock<Real> awaiting(const StepLoads& loads, MarchRuns near);
   MarchBlock<Real> beyond(const StepLoads& loads, MarchRuns near);
+  /// Over the tiles that were chosen alone: whole runs of them, and the others, tile by tile.
+  void choose(Device& device, std::span<const ChosenTile> tiles);
+  MarchBlock<Real> chosen_runs(const StepLoads& loads);
+  MarchBlock<Real> chosen_tiles(const StepLoads& loads);
   bool awaits_host() const { return awaiting_.size() > 0; }
   bool awaits_host(MarchRuns runs) const;
 
@@ -39,11 +46,19 @@ class BlockMarch {
   void find_awaiting(Device& device, const SectionCut& cut, std::span<const int> marks);
   bool touches_host(const SectionCut& cut, const MarchPart& part, int run, std::span<const int> marks) const;
   MarchRuns as_tiles(MarchRuns runs) const;
+  static MarchBlock<Real> listed(MarchBlock<Real> block, const DeviceArray<int>& teams) {
+    block.marched = {};
+    block.list = teams.data();
+    block.listed = static_cast<int>(teams.size());
+    return block;
+  }
 
   const SweptBlock* swept_;
   MarchBlock<Real> block_;
   DeviceArray<int> awaiting_;                ///< teams of one tile each
   DeviceArray<int> others_;                  ///< teams of whole runs
+  DeviceArray<int> chosen_runs_;             ///< likewise
+  DeviceArray<int> chosen_tiles_;            ///< teams of one tile each
   std::vector<unsigned char> awaits_host_;   ///< by run
   std::vector<std::shared_ptr<void>> kept_;  ///< arrays that block_ points to
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -28,12 +29,12 @@ int card_of(std::string_view name) {
 
 }  // namespace
 
-void choose_device(std::string_view name) {
+void choose_device(std::string_view name, int place) {
   const int card = card_of(name);
   if (name.empty() || name == "cpu" || (name == "auto" && gpus().empty()))
     choose_device(std::shared_ptr<Device>());
   else if (name == "gpu" || name == "auto" || card >= 0)
-    choose_device(open_gpu(card >= 0 ? card : 0));
+    choose_device(open_gpu(card >= 0 ? card : place % std::max(1, static_cast<int>(gpus().size()))));
   else if (name == "emulated")
     choose_device(emulated_device());
   else

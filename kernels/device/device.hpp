@@ -207,8 +207,9 @@ std::string why_no_gpu();
 std::unique_ptr<Device> open_gpu(int number);
 
 /// Chooses the device of the steps to come: cpu or no name (none), gpu, gpu:N, emulated, or auto (a card
-/// where there is one). InputError for another name, ResourceError where the device is not there.
-void choose_device(std::string_view name);
+/// where there is one). InputError for another name, ResourceError where the device is not there. `place`:
+/// number of this process among those that share the machine's cards; gpu and auto give each the next one.
+void choose_device(std::string_view name, int place = 0);
 /// Chooses one that a test makes; null: none.
 void choose_device(std::shared_ptr<Device> device);
 /// "cpu", or the name of the chosen device.

@@ -45,6 +45,14 @@ class MarchFan {
     join();
     for (int b = 0; b < blocks(); ++b) launch(queue(b), b, block(b).at(loads), fields);
   }
+  /// Marches over the chosen tiles of all blocks. [BlockMarch::choose]
+  template <class Fields>
+  void start_chosen(const StepLoads& loads, const Fields& fields) {
+    for (int b = 0; b < blocks(); ++b) {
+      launch(queue(b), b, block(b).chosen_runs(loads), fields);
+      launch(queue(b), b, block(b).chosen_tiles(loads), fields);
+    }
+  }
   /// Lets what follows in the queue in use begin after the march about the patch.
   void await_near() {
     for (int queue = kNearQueue; queue < (near_alone_ ? kHostQueue : kQueues); ++queue) device_->after(queue);

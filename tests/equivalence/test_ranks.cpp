@@ -1,207 +1,41 @@
-// Steps that several ranks share have the bits of one process. Ranks are threads here; copies of what another
-// rank moves are NaN, so whoever reads them without fetching them is found out.
+// Steps that several ranks share have the bits of one process. Ranks are threads here.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <barrier>
-#include <condition_variable>
-#include <cstring>
-#include <deque>
-#include <limits>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "core/parallel/parallel.hpp"
-#include "core/parallel/ranks.hpp"
-#include "drivers/engine/preload.hpp"
-#include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
 #include "drivers/results/run_results.hpp"
-#include "tests/state_copies.hpp"
+#include "tests/thread_ranks.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
 
-/// Bytes on their way from one thread to another.
-class Mail {
- public:
-  void put(int from, int to, std::span<const std::byte> bytes) {
-    const std::lock_guard held(lock_);
-    letters_[{from, to}].emplace_back(bytes.begin(), bytes.end());
-    arrived_.notify_all();
-  }
-  std::vector<std::byte> take(int from, int to) {
-    std::unique_lock held(lock_);
-    auto& letters = letters_[{from, to}];
-    arrived_.wait(held, [&] { return !letters.empty(); });
-    std::vector<std::byte> letter = std::move(letters.front());
-    letters.pop_front();
-    return letter;
-  }
-
- private:
-  std::mutex lock_;
-  std::condition_variable arrived_;
-  std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> letters_;
-};
-
-/// Where threads of a process find one another.
-struct Meeting {
-  explicit Meeting(int count)
-      : barrier(count), values(static_cast<std::size_t>(count)), sent(static_cast<std::size_t>(count)) {}
-  Mail mail;
-  std::barrier<> barrier;
-  std::vector<std::byte*> values;
-  std::vector<std::span<const RankSegment>> sent;
-};
-
-class ThreadRanks final : public Ranks {
- public:
-  ThreadRanks(std::shared_ptr<Meeting> meeting, int rank) : meeting_(std::move(meeting)), rank_(rank) {}
-
-  int rank() const override { return rank_; }
-  int count() const override { return static_cast<int>(meeting_->values.size()); }
-  bool spoils_copies() const override { return true; }
-  void end_all(int code) override { std::exit(code); }
-
-  void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) override {
-    meeting_->sent[static_cast<std::size_t>(rank_)] = sent;
-    meeting_->barrier.arrive_and_wait();
-    std::vector<std::size_t> next(meeting_->sent.size(), 0);
-    for (const RankSegment& segment : received) {
-      const std::span<const RankSegment> from = meeting_->sent[static_cast<std::size_t>(segment.rank)];
-      std::size_t& at = next[static_cast<std::size_t>(segment.rank)];
-      while (at < from.size() && from[at].rank != rank_) ++at;
-      ASSERT_LT(at, from.size()) << "rank " << rank_ << " waits for more than rank " << segment.rank
-                                 << " sends";
-      ASSERT_EQ(from[at].bytes.size(), segment.bytes.size());
-      std::memcpy(segment.bytes.data(), from[at++].bytes.data(), segment.bytes.size());
-    }
-    meeting_->barrier.arrive_and_wait();
-  }
-
-  void post(std::span<const RankSegment> sent) override {
-    for (const RankSegment& segment : sent) meeting_->mail.put(rank_, segment.rank, segment.bytes);
-  }
-  void receive(std::span<const RankSegment> received) override {
-    for (const RankSegment& segment : received) {
-      const std::vector<std::byte> letter = meeting_->mail.take(segment.rank, rank_);
-      ASSERT_EQ(letter.size(), segment.bytes.size());
-      std::memcpy(segment.bytes.data(), letter.data(), letter.size());
-    }
-  }
-
-  void broadcast(std::span<std::byte> bytes) override {
-    meeting_->values[static_cast<std::size_t>(rank_)] = bytes.data();
-    meeting_->barrier.arrive_and_wait();
-    if (rank_ != 0) std::memcpy(bytes.data(), meeting_->values[0], bytes.size());
-    meeting_->barrier.arrive_and_wait();
-  }
-
- private:
-  void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
-    meeting_->values[static_cast<std::size_t>(rank_)] = values;
-    meeting_->barrier.arrive_and_wait();
-    for (std::size_t other = 0; other + 1 < first.size(); ++other) {
-      if (other == static_cast<std::size_t>(rank_)) continue;
-      const std::int64_t from = first[other] * size;
-      if (first[other + 1] == first[other]) continue;
-      std::memcpy(values + from, meeting_->values[other] + from,
-                  static_cast<std::size_t>(first[other + 1] * size - from));
-    }
-    meeting_->barrier.arrive_and_wait();
-  }
-
-  std::shared_ptr<Meeting> meeting_;
-  int rank_;
-};
-
-constexpr std::int64_t kSampling = 70;
-
-/// A scene from its preload on.
+/// A scene on one process, and on several ranks from there on.
 class Case {
  public:
-  explicit Case(const Scene& scene) : scene_(scene), model_(scene) {
-    preload_ = solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {});
-    if (scene.corrugation) {
-      deepest_ = preload_.contact.pressure_peak.y;
-      model_.apply_corrugation(*deepest_);
-    }
-    dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
-    one_.emplace(model_, preload_, dt_);
-    one_->set_sampling_interval(kSampling);
-  }
+  explicit Case(const Scene& scene) : of_(scene), one_(of_.start()) {}
 
   /// Steps on `count` ranks are those of one process; all fields are compared at these steps. `shares`: of
   /// the work, by rank; none: the expected ones.
   void expect_same_steps(int count, const std::vector<std::int64_t>& looks,
                          const std::vector<double>& shares = {}) {
-    const auto meeting = std::make_shared<Meeting>(count);
-    std::vector<std::unique_ptr<Model>> models;
-    Simulations shared;
-    for (int rank = 0; rank < count; ++rank) {
-      models.push_back(std::make_unique<Model>(scene_, deepest_));
-      const auto ranks = std::make_shared<ThreadRanks>(meeting, rank);
-      ranks->shares = shares;
-      choose_ranks(ranks);
-      shared.push_back(std::make_unique<Simulation>(*models.back(), preload_.contact.centre.y, dt_));
-      choose_ranks(nullptr);
-      shared.back()->set_sampling_interval(kSampling);
-      samples::copy(one_->state(), shared.back()->state());
-      models.back()->keep_masses(shared.back()->groups_with_mass());
-      if (rank > 0) spoil(shared.back()->unshared_state());
-    }
-    on_threads(shared, [](Simulation& simulation) {
-      simulation.spread();
-      simulation.fields();  // as at the checkpoint before the first step
-    });
+    const samples::SharedRun shared(of_, *one_, count, shares);
     for (const std::int64_t look : looks) {
       const std::int64_t steps = one_->steps() + look;
-      on_threads(shared, [steps](Simulation& simulation) {
-        while (simulation.steps() < steps) simulation.step();
-        simulation.fields();
-      });
+      shared.roll_on(steps);
       while (one_->steps() < steps) one_->step();
-      EXPECT_EQ(samples::differences(one_->state(), shared.front()->state()), "")
+      EXPECT_EQ(samples::differences(one_->state(), shared.front().state()), "")
           << count << " ranks, " << steps;
-      for (const auto& simulation : shared)
-        EXPECT_EQ(history_row(model_, one_->sample()), history_row(model_, simulation->sample()));
+      for (const auto& simulation : shared.simulations())
+        EXPECT_EQ(history_row(of_.model(), one_->sample()), history_row(of_.model(), simulation->sample()));
     }
   }
 
  private:
-  using Simulations = std::vector<std::unique_ptr<Simulation>>;
-
-  template <class Call>
-  static void on_threads(const Simulations& ranks, const Call& call) {
-    std::vector<std::thread> threads;
-    for (const auto& simulation : ranks) threads.emplace_back([&call, &simulation] { call(*simulation); });
-    for (std::thread& thread : threads) thread.join();
-  }
-  static void spoil(const StateList& list) {
-    for (const StateList::Field& field : list.fields())
-      std::visit(
-          [](auto values) {
-            std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
-          },
-          field.values);
-  }
-
-  Scene scene_;
-  Model model_;
-  Preload preload_;
-  std::optional<double> deepest_;
-  double dt_ = 0;
-  std::optional<Simulation> one_;
+  samples::RankCase of_;
+  std::unique_ptr<Simulation> one_;
 };
 
 /// The runs of all numbers of ranks follow one another. The wheel is anchored after 256 steps.

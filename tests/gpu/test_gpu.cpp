@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "tests/device_cases.hpp"
+#include "tests/thread_ranks.hpp"
 
 namespace tread {
 namespace {
@@ -87,6 +88,22 @@ TEST_F(Gpu, HammerOnARailOnFastenings) {
 
 TEST_F(Gpu, WheelsetWithAVehicleOnASlab) {
   expect_same_steps(file("smooth", kHalfWheelset), 300);
+}
+
+/// Two ranks that share the card.
+TEST_F(Gpu, RanksWithADeviceEach) {
+  for (const std::string precision : {"double", "mixed"}) {
+    const RankCase of(tyre(corrugated(kTraction))(precision));
+    const auto one = of.start();
+    const SharedRun two(of, *one, 2, {0.4, 0.6}, [] { return open_gpu(0); });
+    two.roll_on(300);
+    roll_on(*one, 300);
+    const Apart error = apart(3 * of.model().mesh.slots, *one, two.front());
+    EXPECT_LT(error.displacement, precision == "double" ? 1e-9 : 1e-5);
+    if (precision == "double") {
+      EXPECT_LT(error.velocity, 1e-9);
+    }
+  }
 }
 
 TEST_F(Gpu, ACardThatIsNotThereIsRefused) {

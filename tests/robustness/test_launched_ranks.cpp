@@ -105,6 +105,18 @@ TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
   expect_same_run(root_ / "whole", folder_);
 }
 
+/// Files of ranks with a device each are those of two such ranks. They go on on processors.
+TEST_F(LaunchedRanks, WithADeviceEach) {
+  const std::string emulated = "--device emulated --set \"motion.duration=0.15 ms\"";
+  ASSERT_EQ(call_on(2, run(root_ / "two", emulated)), 0) << errors();
+  EXPECT_TRUE(has(content_of(root_ / "two/summary.json"), "\"device\": \"emulated\"")) << errors();
+  EXPECT_EQ(call_on(3, run(folder_, emulated + " --set stop.steps=100")), 4) << errors();
+  const std::string resume = fmt::format("resume {} -t 1 --set stop.steps=0 ", folder_.string());
+  ASSERT_EQ(call_on(4, resume + "--device emulated"), 0) << errors();
+  EXPECT_FALSE(has(errors(), "it was written by")) << errors();
+  expect_same_run(root_ / "two", folder_);
+}
+
 TEST_F(LaunchedRanks, StoppedFromOutsideAndAfterTheLossOfARank) {
   ASSERT_EQ(call(run(root_ / "long", kLong)), 0) << errors();
   const pid_t stopped = start_rolling(folder_);
@@ -148,8 +160,8 @@ TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
   EXPECT_EQ(times(errors(), "motion.sped"), 1) << errors();
   EXPECT_EQ(call_on(2, "check " + kTyre), 2);
   EXPECT_EQ(times(errors(), "tread check: ranks share the work of `run` and `resume` alone"), 1) << errors();
-  EXPECT_EQ(call_on(2, run(folder_, "--device emulated")), 2);
-  EXPECT_EQ(times(errors(), "--device emulated: "), 1) << errors();
+  EXPECT_EQ(call_on(2, run(folder_, "--device emulatd")), 2);
+  EXPECT_EQ(times(errors(), "--device emulatd: "), 1) << errors();
   EXPECT_EQ(call_on(2, "version"), 0);
   EXPECT_EQ(times(output(), "mpirun, " + rank_library()), 1) << output();
 }

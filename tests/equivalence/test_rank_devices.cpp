@@ -1,0 +1,93 @@
+// Steps of ranks that have a device each: the same bits for any number of ranks, and the processor's motion.
+// Devices are emulated. Their copies of others' tiles, and the host's of what they move, hold NaN.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/device_cases.hpp"
+#include "tests/thread_ranks.hpp"
+
+namespace tread {
+namespace {
+
+using samples::corrugated;
+using samples::file;
+using samples::kTraction;
+using samples::tyre;
+
+std::shared_ptr<Device> small_parts() {
+  Emulation emulation;
+  emulation.cut.part_quads = 7;
+  emulation.cut.run_tiles = 3;
+  emulation.spoils_copies = true;
+  return emulated_device(emulation);
+}
+
+/// Fields after these steps beside those of one process in double; in other precisions, beside its own.
+void expect_same_steps(const std::function<Scene(const std::string&)>& scene,
+                       const std::vector<std::string>& precisions, std::int64_t steps) {
+  for (const std::string& precision : precisions) {
+    SCOPED_TRACE(precision);
+    const samples::RankCase of(scene(precision));
+    const auto start = of.start();
+    const samples::SharedRun two(of, *start, 2, {0.4, 0.6}, small_parts);
+    two.roll_on(steps);
+    for (const int count : {3, 4, 7}) {
+      const samples::SharedRun more(of, *start, count, {}, small_parts);
+      more.roll_on(steps);
+      EXPECT_EQ(samples::differences(two.front().state(), more.front().state()), "") << count << " ranks";
+    }
+    samples::roll_on(*start, steps);
+    const std::int64_t values = 3 * of.model().mesh.slots;
+    const samples::Apart apart = samples::apart(values, *start, two.front());
+    EXPECT_LT(apart.displacement, precision == "double" ? 1e-9 : 1e-5);
+    if (precision != "double") continue;
+    EXPECT_LT(apart.velocity, 1e-9);
+    samples::expect_same_contact(*start, two.front());
+    samples::expect_same_energies(start->sample(), two.front().sample());
+  }
+}
+
+TEST(RankDevices, TractionOverCorrugation) {
+  std::vector<std::string> overrides = corrugated(kTraction);
+  overrides.emplace_back("corrugation.apply=nodes");
+  expect_same_steps(tyre(overrides), {"double", "mixed", "single"}, 270);
+}
+
+TEST(RankDevices, MaxwellBranches) {
+  expect_same_steps(
+      [](const std::string& precision) {
+        return samples::tyre_with_maxwell_branches(
+            {"scene.element_size=10 mm", "motion.duration=0.5 ms", "scene.precision=" + precision});
+      },
+      {"double", "mixed"}, 270);
+}
+
+TEST(RankDevices, PlasticMaterialWithDamping) {
+  expect_same_steps(tyre({"material.steel.law=j2", "material.steel.yield_stress=20 MPa",
+                          "material.steel.isotropic_hardening=20 GPa",
+                          "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}),
+                    {"double", "mixed"}, 270);
+}
+
+TEST(RankDevices, GuidedBoreAndFallingFriction) {
+  expect_same_steps(
+      tyre({"wheel.bore=guided", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
+            "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}),
+      {"double"}, 270);
+}
+
+TEST(RankDevices, HammerOnARailOnFastenings) {
+  expect_same_steps(file("hammer", {}), {"double"}, 100);
+}
+
+TEST(RankDevices, WheelsetWithAVehicleOnASlab) {
+  expect_same_steps(file("smooth", samples::kHalfWheelset), {"double", "mixed"}, 100);
+}
+
+}  // namespace
+}  // namespace tread
