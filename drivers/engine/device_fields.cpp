@@ -34,7 +34,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
 
 template <class Real, class U>
 DeviceFields<Real, U>::~DeviceFields() {
-  device_->wait();
+  device_->let_end();
   if (has_contact()) contact_->run_on(nullptr);
 }
 

@@ -23,7 +23,7 @@ template <class Real, class U>
 class RankDeviceFields final : public RankFields<Real, U> {
  public:
   RankDeviceFields(const Model& model, std::shared_ptr<Ranks> ranks, std::shared_ptr<Device> device);
-  ~RankDeviceFields() override { device_->wait(); }
+  ~RankDeviceFields() override { device_->let_end(); }
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
     Base::set(displacement, velocity);

@@ -40,6 +40,7 @@ template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks, Borders borders)
     : Base(model),
       ranks_(std::move(ranks)),
+      borders_(borders),
       cut_(cut_of(model, this->internal(), *ranks_, borders)),
       tiles_(share_of(cut_, *ranks_)),
       own_tiles_(cut_.tiles(), 0),
@@ -108,7 +109,10 @@ void RankFields<Real, U>::take_near() {
   this->update().defer_only(deferred_, shared_.near());
   patch_motion_.follow(shared_.near());
   patch_forces_.follow(shared_.near());
-  other_forces_.follow(shared_.near(), patch_motion_.segments());
+  // With halos the contact is never solved beside elements, whose forces its motion would go with.
+  const bool beside = borders_ == Borders::joints;
+  other_forces_.follow(shared_.near(), beside ? std::span<const RankSegment>(patch_motion_.segments())
+                                              : std::span<const RankSegment>{});
 }
 
 template <class Real, class U>

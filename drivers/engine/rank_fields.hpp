@@ -136,6 +136,7 @@ class RankFields : public PreciseFields<Real, U> {
   };
 
   std::shared_ptr<Ranks> ranks_;
+  Borders borders_;
   RankCut cut_;
   TileShare tiles_;
   std::vector<unsigned char> own_tiles_;  ///< marks of this rank's

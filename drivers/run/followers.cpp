@@ -21,7 +21,7 @@ namespace tread {
 
 namespace {
 
-enum class Word : std::int64_t { begin, step, fetch, times, end, dismiss };
+enum class Word : std::int64_t { device, begin, step, fetch, times, end, dismiss };
 
 template <class T>
 void broadcast_value(Ranks& ranks, T& value) {
@@ -85,7 +85,6 @@ SealedContent receive(Ranks& ranks) {
 const std::string kThreads = "ranks/threads";
 const std::string kBackend = "ranks/backend";
 const std::string kBound = "ranks/bound";
-const std::string kDevice = "ranks/device";
 const std::string kShares = "ranks/shares";
 
 /// The run of rank 0 on this rank.
@@ -96,7 +95,6 @@ class FollowedRun {
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
                  sealed_entry<std::string>(content, kBackend),
                  sealed_value<std::int64_t>(content, kBound) != 0});
-    choose_device(sealed_entry<std::string>(content, kDevice), ranks.place_on_host());
     const RunOrder order = unpack_order(content);
     unpack_results(content, results_);
     const ResolvedScene made = resolve_scene(order.scene, order.overrides);
@@ -157,15 +155,14 @@ Word follow_run(Ranks& ranks) {
 
 Followers::Followers() : ranks_(chosen_ranks()) {}
 
-void Followers::begin(SealedContent run, Simulation& simulation, const RunOptions& options) {
+void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) {
   if (absent()) return;
   clock_ = {};
   leave_to_spread(simulation, run);
   say(*ranks_, Word::begin);
-  run[kThreads] = std::vector<std::int64_t>{options.threads.number};
-  run[kBackend] = options.threads.backend;
-  run[kBound] = std::vector<std::int64_t>{options.threads.bind ? 1 : 0};
-  run[kDevice] = !chosen_device() ? "cpu" : options.device == "auto" ? "gpu" : options.device;
+  run[kThreads] = std::vector<std::int64_t>{threads.number};
+  run[kBackend] = threads.backend;
+  run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
   run[kShares] = ranks_->shares;
   send(*ranks_, std::move(run));
   simulation.spread();
@@ -230,8 +227,21 @@ std::string Followers::description(std::int64_t steps) const {
 void follow(Ranks& ranks) {
   // Rank 0 obeys signals. The launcher sends them to all.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);
-  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;)
+  for (Word word = next_word(ranks); word != Word::dismiss;) {
+    if (word == Word::device) {
+      std::string name;
+      broadcast_values(ranks, name);
+      choose_device(name, ranks.place_on_host());
+    }
     word = word == Word::begin ? follow_run(ranks) : next_word(ranks);
+  }
+}
+
+void choose_devices(Ranks& ranks, const std::string& name) {
+  choose_device(name, ranks.place_on_host());
+  std::string of_others = !chosen_device() ? "cpu" : name == "auto" ? "gpu" : name;
+  say(ranks, Word::device);
+  broadcast_values(ranks, of_others);
 }
 
 void dismiss(Ranks& ranks) {

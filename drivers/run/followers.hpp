@@ -23,7 +23,7 @@ class Followers {
   bool absent() const { return !ranks_; }
 
   /// Hands the run over, at its beginning or anew: its content between two steps, as pack_run() packs it.
-  void begin(SealedContent run, Simulation& simulation, const RunOptions& options);
+  void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads);
   /// A step on all ranks.
   void step(Simulation& simulation);
   /// Compares the times of the ranks now and then. Returns true where other shares of the work, which the
@@ -51,6 +51,9 @@ class Followers {
 /// Does on another rank than 0 what rank 0 says, run by run, until dismiss(). Errors leave as those of
 /// Simulation do, except those that all ranks meet in the same step: rank 0 reports them.
 void follow(Ranks& ranks);
+
+/// Gives each rank a device of this name, as choose_device() does; all have one where rank 0 finds one.
+void choose_devices(Ranks& ranks, const std::string& name);
 
 /// Ends follow() on the other ranks.
 void dismiss(Ranks& ranks);

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -61,7 +62,7 @@ __global__ void __launch_bounds__(kPatchThreads, Body::kNeedsMemory ? 1 : 2)
 
 class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
-  explicit CudaDevice(int number) : spared_(opened(number), kPatchTeams) {
+  explicit CudaDevice(int number) : number_(opened(number)), spared_(number, kPatchTeams) {
     cudaDeviceProp properties{};
     check(cudaGetDeviceProperties(&properties, number), "its properties");
     name_ = properties.name;
@@ -167,10 +168,14 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(cudaGetLastError(), "values of nodes");
   }
 
-  /// Lets the threads of a kernel's teams share so much memory.
+  /// Lets the threads of a kernel's teams share so much memory. The limit is the card's for that kernel,
+  /// whoever launches it.
   template <class Kernel>
   void allow(Kernel* kernel, std::size_t bytes) {
-    std::size_t& allowed = allowed_[reinterpret_cast<const void*>(kernel)];
+    static std::mutex lock;
+    static std::map<std::pair<int, const void*>, std::size_t> limits;  ///< by card and kernel [B]
+    const std::lock_guard held(lock);
+    std::size_t& allowed = limits[{number_, reinterpret_cast<const void*>(kernel)}];
     if (bytes <= allowed) return;
     check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
           "shared memory");
@@ -220,9 +225,9 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     }
   };
 
+  int number_;
   std::string name_;
   std::size_t shared_ = 0;
-  std::unordered_map<const void*, std::size_t> allowed_;  ///< by kernel [B]
   int patch_teams_ = 1;
   SparedProcessors spared_;
   std::array<Queue, kQueues> queues_;

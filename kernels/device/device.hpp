@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <span>
 #include <string>
@@ -106,6 +107,13 @@ class Device {
 
   /// Ends when all kernels have ended.
   virtual void wait() = 0;
+  /// The same where a failure has been reported, or is no matter any more.
+  void let_end() noexcept {
+    try {
+      wait();
+    } catch (const std::exception&) {
+    }
+  }
   /// a = b + 3 c of n values: the bandwidth of the device's memory. [STREAM]
   virtual void triad(std::int64_t n, double* a, const double* b, const double* c) = 0;
 

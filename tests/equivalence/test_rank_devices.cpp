@@ -1,5 +1,6 @@
 // Steps of ranks that have a device each: the same bits for any number of ranks, and the processor's motion.
-// Devices are emulated. Their copies of others' tiles, and the host's of what they move, hold NaN.
+// Devices are emulated, with queues that are late in different ways. Their copies of others' tiles, and the
+// host's of what they move, hold NaN.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +20,10 @@ using samples::file;
 using samples::kTraction;
 using samples::tyre;
 
-std::shared_ptr<Device> small_parts() {
+/// `order`: of teams, threads and queues.
+std::shared_ptr<Device> small_parts(std::uint64_t order) {
   Emulation emulation;
+  emulation.order = order;
   emulation.cut.part_quads = 7;
   emulation.cut.run_tiles = 3;
   emulation.spoils_copies = true;
@@ -34,10 +37,11 @@ void expect_same_steps(const std::function<Scene(const std::string&)>& scene,
     SCOPED_TRACE(precision);
     const samples::RankCase of(scene(precision));
     const auto start = of.start();
-    const samples::SharedRun two(of, *start, 2, {0.4, 0.6}, small_parts);
+    const samples::SharedRun two(of, *start, 2, {0.4, 0.6}, [] { return small_parts(0); });
     two.roll_on(steps);
     for (const int count : {3, 4, 7}) {
-      const samples::SharedRun more(of, *start, count, {}, small_parts);
+      const samples::SharedRun more(of, *start, count, {},
+                                    [count] { return small_parts(static_cast<std::uint64_t>(count)); });
       more.roll_on(steps);
       EXPECT_EQ(samples::differences(two.front().state(), more.front().state()), "") << count << " ranks";
     }
