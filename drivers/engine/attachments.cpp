@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,6 +15,14 @@ namespace tread {
 
 namespace {
 
+/// Keys that bring a point of a fastening onto the line of this name, for messages.
+std::string_view keys_across(const std::string& path) {
+  if (path == "foot") return "; state a smaller fastenings.pad_width";
+  if (path == "top")
+    return "; state a smaller fastenings.pad_width, a larger slab.width or another slab.offset";
+  return "";
+}
+
 /// Attachment on the line `nodes` of the section, called `path` in messages.
 Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes, const std::string& path,
                           const std::array<double, 2>& at_xy) {
@@ -21,8 +30,8 @@ Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes
   const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
   if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
     throw InputError(
-        fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
-                    path, block.name, p(0), p(nodes.size() - 1)));
+        fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m){}", y,
+                    path, block.name, p(0), p(nodes.size() - 1), keys_across(path)));
   std::size_t i = 0;
   while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
   const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);

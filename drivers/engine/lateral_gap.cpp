@@ -19,12 +19,13 @@ LateralGap lateral_gap(const SurfaceProfile& rail, const SurfaceProfile& wheel) 
   double denominator = 0;
   for (int i = -20; i <= 20; ++i) {
     const double s = kHalfWidth * i / 20;
-    const double p = std::clamp(lowest + s, first, last);
+    const double p = lowest + s;
+    if (p < first || p > last) continue;  // beside an edge
     const double rise = gap(p) - gap(lowest);
     numerator += rise * s * s;
     denominator += s * s * s * s;
   }
-  const double curvature = 2 * numerator / denominator;
+  const double curvature = denominator > 0 ? 2 * numerator / denominator : 0;
   return {lowest, 1 / std::max(curvature, 1e-2)};
 }
 

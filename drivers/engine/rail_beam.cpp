@@ -31,17 +31,25 @@ struct SupportSpring {
   double damping;
 };
 
+/// Calls visit(number) for a scene's fastenings and, before its rail's left end, for those of a track that
+/// goes on there.
+template <class Visit>
+void for_fastenings(const Scene& scene, int more_spans, const Visit& visit) {
+  for (int i = -more_spans; i < scene.fastenings->count; ++i)
+    if (i >= 0 || scene.fastening_x(i) < -scene.rail->origin) visit(i);
+}
+
 /// The columns of a scene's fastenings as parts of the springs spring(i) of whole fastenings.
 template <class SpringOf>
 std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, const SpringOf& spring) {
   const FasteningSpec& f = *scene.fastenings;
   std::vector<BeamSupport> supports;
-  for (int i = -more_spans; i < f.count; ++i) {
-    const auto [stiffness, damping] = spring(i);
+  for_fastenings(scene, more_spans, [&](int i) {
+    const SupportSpring whole = spring(i);
     for (int column = 0; column < f.columns; ++column)
-      supports.push_back(
-          {scene.fastening_x(i) + f.column_offset(column), stiffness / f.columns, damping / f.columns});
-  }
+      supports.push_back({scene.fastening_x(i) + f.column_offset(column), whole.stiffness / f.columns,
+                          whole.damping / f.columns});
+  });
   return supports;
 }
 
@@ -65,15 +73,15 @@ std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
   std::vector<double> columns;
   for (int column = 0; column < f.columns; ++column) columns.push_back(f.column_offset(column));
   std::vector<SleeperSupport> list;
-  for (int i = -more_spans; i < f.count; ++i) {
-    const auto [stiffness, damping] = vertical_spring(scene, i);
+  for_fastenings(scene, more_spans, [&](int i) {
+    const SupportSpring pad = vertical_spring(scene, i);
     const double bed = scene.support(i).bed;
     list.push_back({scene.fastening_x(i),
-                    stiffness,
-                    damping,
+                    pad.stiffness,
+                    pad.damping,
                     {sleeper_mass(scene), bed * spec.stiffness, bed * spec.damping},
                     columns});
-  }
+  });
   return list;
 }
 
@@ -89,18 +97,18 @@ std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
   if (!scene.fastenings || scene.fastenings->along.kind != "held") return {};
   const FasteningSpec& f = *scene.fastenings;
   std::vector<FootStretch> holds;
-  for (int i = -more_spans; i < f.count; ++i) {
-    if (!scene.support(i).holds) continue;
+  for_fastenings(scene, more_spans, [&](int i) {
+    if (!scene.support(i).holds) return;
     const double middle = scene.fastening_x(i);
     if (f.held_at == "pad") {
       holds.push_back({middle - 0.5 * f.pad_length, middle + 0.5 * f.pad_length});
-      continue;
+      return;
     }
     for (int column = 0; column < f.columns; ++column) {
       const double x = middle + f.column_offset(column);
       holds.push_back({x, x});
     }
-  }
+  });
   return holds;
 }
 

@@ -43,55 +43,76 @@ WheelProfile wheel_profile(const WheelSpec& wheel) {
 
 RailProfile rail_profile(const RailSpec& rail) {
   if (rail.profile_y.empty()) return built_in_rail(rail.profile);
-  return rail_with_head(rail.profile_y, rail.profile_z, built_in_rail(rail.section));
+  return rail_with_head(rail.profile_y, rail.profile_z, built_in_rail(rail.section), rail.profile_shift);
 }
-
-constexpr double kUsualBand = -2e-3;  ///< CN60 and LMA touch between -12 and +6 mm: one band for all offsets
 
 /// Middles of the fine bands on rail and wheel, each in its section's own coordinate p [m].
 struct Bands {
   double rail = 0, wheel = 0;
 };
 
-/// The bands lie about the place where the rigid profiles touch. InputError if the rail is too steep there.
-Bands bands_of(const Scene& scene, const RailProfile& rail) {
-  if (!scene.wheel) return {kUsualBand, kUsualBand};
-  const WheelSpec& wheel = *scene.wheel;
-  if (wheel.shape == "tyre" && scene.rail->profile == "CN60") return {kUsualBand, kUsualBand};
-  const Touching place =
-      touching(rail.running, scene.rail->inclination, wheel_profile(wheel).surface, wheel.lateral_offset);
+/// Running surface of the rail.
+PlaneCurve running_surface(const RailSpec& rail) {
+  return rail.profile == "box" ? crowned(rail.width, rail.crown_radius).surface : rail_profile(rail).running;
+}
+
+/// InputError if the rail is too steep where the profiles touch.
+void require_gentle(const Touching& place, double lateral_offset) {
   constexpr double kSteepest = 0.5;
-  if (std::abs(place.slope) > kSteepest)
-    throw InputError(fmt::format(
-        "wheel.lateral_offset = {:.2f} mm: the profiles touch at y = {:.1f} mm from the rail's middle, where "
-        "the rail leans by {:.0f} degrees; the patch has to lie where it leans by {:.0f} degrees at most: "
-        "shift the wheel, or the profiles by wheel.profile_shift and rail.profile_shift",
-        1e3 * wheel.lateral_offset, 1e3 * place.y, std::atan(std::abs(place.slope)) * 180 / std::numbers::pi,
-        std::atan(kSteepest) * 180 / std::numbers::pi));
-  if (scene.rail->profile == "CN60" && wheel.profile == "LMA") return {kUsualBand, kUsualBand};
-  return {place.on_rail.x, place.y};
+  if (std::abs(place.slope) <= kSteepest) return;
+  throw InputError(fmt::format(
+      "wheel.lateral_offset = {:.2f} mm: the profiles touch at y = {:.1f} mm from the rail's middle, where "
+      "the rail leans by {:.0f} degrees; the patch has to lie where it leans by {:.0f} degrees at most: "
+      "shift the wheel, or the profiles by wheel.profile_shift and rail.profile_shift",
+      1e3 * lateral_offset, 1e3 * place.y, std::atan(std::abs(place.slope)) * 180 / std::numbers::pi,
+      std::atan(kSteepest) * 180 / std::numbers::pi));
+}
+
+/// The bands lie about the place where the rigid profiles touch. InputError if the rail is too steep there.
+Bands bands_of(const Scene& scene) {
+  const bool box = !scene.rail || scene.rail->profile == "box";
+  const bool tyre = scene.wheel && scene.wheel->shape == "tyre";
+  constexpr double kUsual = -2e-3;  // of CN60 and LMA
+  const Bands usual{box ? 0 : kUsual, tyre ? 0 : kUsual};
+  if (!scene.wheel || !scene.rail) return usual;
+  const RailSpec& rail = *scene.rail;
+  const WheelSpec& wheel = *scene.wheel;
+  if (box && rail.crown_radius == 0 && wheel.profile == "cylinder") return usual;  // they touch all across
+  const Touching place = touching(running_surface(rail), box ? 0 : rail.inclination,
+                                  wheel_profile(wheel).surface, wheel.lateral_offset);
+  require_gentle(place, wheel.lateral_offset);
+  // One band for all places that are near: offsets of some mm then have the same mesh.
+  const auto band = [&](double common, double touching_place) {
+    const double beside = place.y - common;
+    return beside >= -10e-3 && beside <= 8e-3 ? common : touching_place;
+  };
+  Bands bands{place.on_rail.x, place.y};
+  if (box || (rail.profile == "CN60" && (tyre || wheel.profile == "LMA")))
+    bands.rail = band(usual.rail, bands.rail);
+  if (box || tyre || (rail.profile == "CN60" && wheel.profile == "LMA"))
+    bands.wheel = band(usual.wheel, bands.wheel);
+  return bands;
 }
 
 }  // namespace
 
 RailSections rail_sections(const Scene& scene, const MeshSizes& sizes) {
   const RailSpec& rail = *scene.rail;
-  const RailProfile profile = rail_profile(rail);
   return make_rail_sections(
-      profile, rail.inclination,
-      section_size(sizes, std::max(sizes.section, kLeastRailCoarse), bands_of(scene, profile).rail));
+      rail_profile(rail), rail.inclination,
+      section_size(sizes, std::max(sizes.section, kLeastRailCoarse), bands_of(scene).rail));
 }
 
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes) {
   const RailSpec& rail = *scene.rail;
   return make_box_rail_section(rail.width, rail.height, rail.crown_radius,
-                               section_size(sizes, sizes.section, 0));
+                               section_size(sizes, sizes.section, bands_of(scene).rail));
 }
 
 Section tyre_section(const Scene& scene, const MeshSizes& sizes) {
   const WheelSpec& wheel = *scene.wheel;
   return make_tyre_section(wheel_profile(wheel), wheel.diameter, wheel.lateral_offset, wheel.thickness,
-                           section_size(sizes, sizes.section, 0));
+                           section_size(sizes, sizes.section, bands_of(scene).wheel));
 }
 
 Section sleeper_section(const SleeperSpec& sleeper, double top, const MeshSizes& sizes) {
@@ -129,7 +150,7 @@ class WheelBuilder {
  public:
   WheelBuilder(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan)
       : profile_(wheel_profile(*scene.wheel)),
-        size_(section_size(sizes, kWheelToRailCoarse * sizes.section, wheel_band(scene))),
+        size_(section_size(sizes, kWheelToRailCoarse * sizes.section, bands_of(scene).wheel)),
         plan_(plan),
         density_(scene.wheel_material().density) {
     shape.diameter = scene.wheel->diameter;
@@ -156,11 +177,6 @@ class WheelBuilder {
   }
 
  private:
-  static double wheel_band(const Scene& scene) {
-    const bool rail = scene.rail && scene.rail->profile != "box";
-    return rail ? bands_of(scene, rail_profile(*scene.rail)).wheel : kUsualBand;
-  }
-
   /// Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
   static double polygon(const std::vector<Segment>& segments) {
     double sum = 0;

@@ -1,0 +1,72 @@
+// Sections of a scene: fine columns where the rigid profiles touch, wherever that is; supports of the beam
+// that goes on before the rail.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/geometry/built_in_profiles.hpp"
+#include "core/geometry/profiles.hpp"
+#include "core/geometry/touching.hpp"
+#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/sections.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double mm = 1e-3;
+
+Scene smooth(const std::vector<std::string>& overrides) {
+  return read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/smooth.toml", overrides);
+}
+
+/// Widest column of a running surface within 6 mm of a place p [m].
+double widest_about(const Section& section, double p) {
+  double widest = 0;
+  for (const SurfaceEdge& edge : section.surface) {
+    const auto a = static_cast<std::size_t>(edge.node[0]);
+    const auto b = static_cast<std::size_t>(edge.node[1]);
+    if (section.p[b] < p - 6 * mm || section.p[a] > p + 6 * mm) continue;
+    widest = std::max(widest, std::abs(section.p[b] - section.p[a]));
+  }
+  return widest;
+}
+
+TEST(SceneSections, FineColumnsLieWhereTheProfilesTouch) {
+  for (const double offset : {-3.0, -2.0, -1.5, 0.0, 3.0}) {
+    const Scene scene = smooth({fmt::format("wheel.lateral_offset={} mm", offset), "rail.inclination=1:40"});
+    const MeshSizes sizes = mesh_sizes(scene);
+    const Touching place =
+        touching(built_in_rail("CN60").running, 1.0 / 40, built_in_wheel("LMA").surface, offset * mm);
+    EXPECT_LT(widest_about(rail_sections(scene, sizes).cap, place.y), 1.3 * sizes.contact)
+        << offset << " mm: " << place.y / mm;
+  }
+}
+
+TEST(SceneSections, FineColumnsOfATyreBesideTheMiddle) {
+  const Scene scene = samples::tyre_scene({"wheel.lateral_offset=24 mm", "scene.element_size=2 mm"});
+  const MeshSizes sizes = mesh_sizes(scene);
+  EXPECT_LT(widest_about(box_rail_section(scene, sizes), -24 * mm), 1.3 * sizes.contact);
+  EXPECT_LT(widest_about(tyre_section(scene, sizes), -24 * mm), 1.3 * sizes.contact);
+}
+
+/// A track goes on before the rail, not on a stretch of it that has no fastenings.
+TEST(SceneSections, BeamHasNoMoreFasteningsThanTheRail) {
+  for (const auto& [first, before] : std::vector<std::pair<std::string, int>>{{"0.325 m", 4}, {"2 m", 0}}) {
+    const Scene scene = smooth({"fastenings.first=" + first, "fastenings.count=10"});
+    int on_rail = 0;
+    int beyond = 0;
+    for (const BeamSupport& support : rail_supports(scene, 4))
+      ++(support.x < -scene.rail->origin ? beyond : on_rail);
+    EXPECT_EQ(on_rail, 10 * scene.fastenings->columns) << first;
+    EXPECT_GE(beyond, before * scene.fastenings->columns) << first;
+  }
+}
+
+}  // namespace
+}  // namespace tread
