@@ -39,18 +39,22 @@ std::vector<double> random_depths(const Corrugation::Random& random, double leng
   std::vector<double> depth(x.size(), 0.0);
   std::mt19937_64 source(random.seed);
   const double turn = 2 * std::numbers::pi / length;
-  const auto first = static_cast<int>(std::ceil(length / random.longest - 1e-9));
-  const auto last = static_cast<int>(std::floor(length / random.shortest + 1e-9));
-  const double amplitude = random.rms * std::sqrt(2.0 / std::max(1, last - first + 1));
-  for (int wave = first; wave <= last; ++wave) {
+  const auto [first, last] = waves_of(random.shortest, random.longest, length);
+  const double amplitude = random.rms * std::sqrt(2.0 / std::max(1.0, last - first + 1));
+  for (std::int64_t i = 0; first + static_cast<double>(i) <= last; ++i) {
     const double phase = random_phase(source);
-    for (std::size_t i = 0; i < x.size(); ++i) depth[i] += amplitude * std::cos(turn * wave * x[i] + phase);
+    const double rate = turn * (first + static_cast<double>(i));
+    for (std::size_t k = 0; k < x.size(); ++k) depth[k] += amplitude * std::cos(rate * x[k] + phase);
   }
   for (std::size_t i = 0; i < x.size(); ++i) depth[i] *= end_taper(x[i], length, 0.5 * random.longest);
   return depth;
 }
 
 }  // namespace
+
+WaveRange waves_of(double shortest, double longest, double length) {
+  return {std::ceil(length / longest - 1e-9), std::floor(length / shortest + 1e-9)};
+}
 
 double end_taper(double x, double length, double fade) {
   const double inside = std::min(x, length - x);

@@ -31,13 +31,16 @@ struct CorrugationView {
   TREAD_BODY double depth(double x, double y) const {
     const double across = (y - centre) / width;
     if (x <= first || x >= last || std::abs(across) >= 1) return 0;
-    if (map.shape.rows > 0) return map.shape.at(x - map.at, y).depth;
+    if (map.shape.rows > 0) {
+      const bool beside = y < map.shape.y[0] || y > map.shape.y[map.shape.rows - 1];
+      return beside ? 0 : map.shape.at(x - map.at, y).depth;
+    }
     return profile(x) * (1 - across * across);
   }
 };
 
 /// Depth d(x, y) below the smooth surface [m], negative above it. The depth is zero outside [start, start +
-/// length] and outside |y - centre| < width.
+/// length] and outside |y - centre| < width, or beside the outer rows of a map.
 class Corrugation {
  public:
   struct Sine {
@@ -93,6 +96,14 @@ class Corrugation {
   DepthShapePointer map_;  ///< in place of profile and parabola
   double map_start_ = 0;   ///< x of the map's zero [m]
 };
+
+/// Numbers of waves in a length, whole numbers; `first` above `last`: there are none.
+struct WaveRange {
+  double first, last;
+};
+
+/// Waves from `shortest` to `longest` [m] that fit into `length` [m] as whole numbers.
+WaveRange waves_of(double shortest, double longest, double length);
 
 /// Factor 1 that falls to 0 as half a cosine over `fade` [m] at either end of [0, length] [m].
 double end_taper(double x, double length, double fade);

@@ -107,7 +107,8 @@ RailProfile cn60() {
   return cn60_under(std::move(running));
 }
 
-RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section) {
+RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section,
+                           double shift) {
   constexpr double kDeepest = 18 * mm;    // of the table's points
   constexpr double kNarrowest = 27 * mm;  // half a worn head
   constexpr double kOverhang = 1.5 * mm;  // of a head that has flowed beyond the side face
@@ -138,7 +139,7 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z,
         half >= widest - kWhole && half <= widest
             ? fmt::format(
                   "its own middle is y = {:.1f} mm, which rail.profile_shift = \"{:.1f} mm\" corrects",
-                  middle / mm, -middle / mm)
+                  middle / mm, (shift - middle) / mm)
             : "are the units right, is the whole head measured, and does rail.section name the rail?"));
   }
 

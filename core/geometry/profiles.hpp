@@ -32,8 +32,10 @@ RailProfile cn60();
 
 /// `section` with the head's surface from a measured table (y increasing, z up) [m]; z is shifted so that the
 /// surface passes through the origin. Points deeper than 18 mm are left out; straight lines join the table to
-/// the side faces. Throws InputError if the table does not reach across the head.
-RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section);
+/// the side faces. Throws InputError if the table does not reach across the head; `shift`: what y contains of
+/// rail.profile_shift already, for that message [m].
+RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section,
+                           double shift = 0);
 
 /// Wheel axes: y across (field side positive, flange negative), z towards the flange tip, origin on the
 /// nominal rolling circle; the radius is D / 2 + z.

@@ -137,6 +137,26 @@ std::string slope_warning(const CorrugationSpec& corrugation) {
       slope, 1e3 * corrugation.depth, 1e3 * corrugation.wavelength, kSlope);
 }
 
+/// Outer rows of a map that are not zero are steps beside the patch.
+std::string side_warning(const CorrugationSpec& corrugation) {
+  if (corrugation.map_y.empty()) return "";
+  const std::vector<double>& depth = corrugation.table_depth;
+  const auto deepest = [](auto begin, auto end) {
+    double most = 0;
+    for (; begin != end; ++begin) most = std::max(most, std::abs(*begin));
+    return most;
+  };
+  const auto places = std::ssize(corrugation.table_x);
+  const double sides[] = {deepest(depth.begin(), depth.begin() + places),
+                          deepest(depth.end() - places, depth.end())};
+  if (std::max(sides[0], sides[1]) <= kStep) return "";
+  return fmt::format(
+      "the outer rows of {}, y = {:.3g} and {:.3g} mm, are up to {:.3g} and {:.3g} um deep: beside them the "
+      "depth is 0, so that the rail has a step along each; let both rows fade to 0",
+      corrugation.file, 1e3 * corrugation.map_y.front(), 1e3 * corrugation.map_y.back(), 1e6 * sides[0],
+      1e6 * sides[1]);
+}
+
 /// Depth that begins or ends beside zero is a step in the rail.
 std::string step_warning(const CorrugationSpec& corrugation) {
   const std::vector<double>& depth = corrugation.table_depth;
@@ -148,7 +168,7 @@ std::string step_warning(const CorrugationSpec& corrugation) {
     first = std::max(first, std::abs(depth[row]));
     last = std::max(last, std::abs(depth[row + places - 1]));
   }
-  if (std::max(first, last) <= kStep) return "";
+  if (std::max(first, last) <= kStep) return side_warning(corrugation);
   return fmt::format(
       "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, "
       "so that the rail has a step there; let both ends fade to 0",

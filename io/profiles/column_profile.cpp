@@ -85,7 +85,7 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
     const std::vector<double> row = leading_numbers(line, 6);
     if (columns == 0 && row.size() < 2) {
       const bool count = line.find_first_not_of("0123456789") == std::string::npos;
-      announced = count && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
+      announced = count && !row.empty() && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
       const std::vector<std::string> words = words_of(line);
       try {
         require_order(words);

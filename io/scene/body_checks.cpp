@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/hex_mesh.hpp"
@@ -32,9 +33,11 @@ void check_disc(const Scene& scene, const std::string& table, Require require) {
   if (!scene.wheel) return;
   const WheelSpec& wheel = *scene.wheel;
   require(!wheel.brake_rings, {"wheel.brake_rings", key},
-          "the rings lie on the disc, which the file replaces; state false");
-  require(wheel.web_offset == 0 && wheel.web_wave == 0, {"wheel.web_offset", "wheel.web_wave", key},
-          "the web is a part of the disc, which the file replaces; state 0");
+          "the rings lie on the disc, which the file replaces; state wheel.brake_rings = false");
+  for (const auto& [name, value] :
+       {std::pair("wheel.web_offset", wheel.web_offset), std::pair("wheel.web_wave", wheel.web_wave)})
+    require(value == 0, {name, key},
+            fmt::format("the web is a part of the disc, which the file replaces; state {} = \"0 mm\"", name));
 }
 
 void check_web_and_foot(const Scene& scene, const std::string& table, Require require) {

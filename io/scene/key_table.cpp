@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -62,12 +64,22 @@ void add_zone(Keys& keys, const std::string& name) {
                         kLength, "m", above(0, 1000), "Length of the part")));
 }
 
-/// The key that leaves the table out: it affects what the table's own keys, among `keys`, affect together.
-Key presence_of(const SceneTable& table, const Keys& keys) {
-  Effects effects = {};
-  for (const Key& key : keys)
-    if (key.path.starts_with(table.name + ".")) effects = effects | key.effects;
-  return {.path = table.name + ".present",
+/// Effects of each table's keys together, by the table's name.
+std::map<std::string, Effects, std::less<>> effects_of_tables(const Keys& keys) {
+  std::map<std::string, Effects, std::less<>> found;
+  for (const Key& key : keys) {
+    const std::string_view named = named_table_of(key.path);
+    const std::string_view path = key.path;
+    const std::string_view table = named.empty() ? path.substr(0, path.find('.')) : named;
+    const auto [at, is_new] = found.try_emplace(std::string(table), key.effects);
+    if (!is_new) at->second = at->second | key.effects;
+  }
+  return found;
+}
+
+/// The key that leaves the table out; `effects`: those of the table's own keys.
+Key presence_of(const std::string& table, Effects effects) {
+  return {.path = table + ".present",
           .effects = effects,
           .kind = Kind::directive,
           .locate = {},
@@ -113,8 +125,12 @@ Keys make_keys(const TableNames& names) {
   for (const std::string& name : names.bodies) add_body(keys, name);
   for (const std::string& name : names.probes) add_probe(keys, name);
   add_output(keys);
-  for (const SceneTable& table : make_tables(names))
-    if (table.removable()) keys.push_back(presence_of(table, keys));
+  const auto effects = effects_of_tables(keys);
+  for (const SceneTable& table : make_tables(names)) {
+    if (!table.removable()) continue;
+    const auto found = effects.find(table.name);
+    keys.push_back(presence_of(table.name, found == effects.end() ? Effects({}) : found->second));
+  }
   return keys;
 }
 
@@ -268,7 +284,9 @@ Keys named_keys(std::string_view table) {
   if (table.empty()) return keys;
   const NamedTables& kind = *kind_of(table);
   kind.add_keys(keys, std::string(table.substr(kind.prefix.size())));
-  keys.push_back(presence_of(*named_table(table), keys));
+  Effects effects = {};
+  for (const Key& key : keys) effects = effects | key.effects;
+  keys.push_back(presence_of(std::string(table), effects));
   return keys;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/travel.hpp"
 #include "io/scene/body_checks.hpp"
+#include "io/scene/corrugation_checks.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
 #include "io/scene/surface_file.hpp"
@@ -39,7 +40,7 @@ class Checker {
     check_supports(scene_, others);
     check_bodies(scene_, others);
     if (scene_.motion) check_motion(*scene_.motion);
-    if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
+    if (scene_.rail && scene_.corrugation) check_corrugation(scene_, others);
     for (const auto& [name, surface] : scene_.surfaces)
       check_surface(std::string(kSurfaceTables) + name, surface);
     if (scene_.rail && scene_.pulse) {
@@ -189,7 +190,7 @@ class Checker {
             "follows the slip speed, for example \"20 um\"");
     require(contact.friction_fast <= contact.friction, {"contact.friction_fast", "contact.friction"},
             fmt::format("the coefficient of fast slip, {:g}, is above that without slip, {:g}: friction "
-                        "would not fall; state a smaller one",
+                        "would not fall; state a smaller contact.friction_fast",
                         contact.friction_fast, contact.friction));
   }
 
@@ -236,6 +237,9 @@ class Checker {
             "only a free wheel on a rail on [fastenings] can have been rolling; state start = \"moving\"");
     require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
             "state the traction by mu or by torque, not both");
+    require(motion.reversals == 0 || motion.ramp > 0, {"motion.traction.reversals", "motion.traction.ramp"},
+            "a reversal takes 2 T1, and motion.traction.ramp = 0 leaves no time for it; state a "
+            "motion.traction.ramp above 0, or motion.traction.reversals = 0");
     require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},
             "a wheel that stands has no creepage; state motion.speed");
     require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
@@ -296,38 +300,6 @@ class Checker {
                 "the wheel's rim moves at {:.4g} m/s: spinning alone strains it by {:.2g}, which is not the "
                 "small strain of linear elasticity; it must stay below {:.4g} m/s",
                 rim, rim * rim * material.density / material.youngs_modulus, fastest));
-  }
-
-  void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
-    const bool table = corrugation.in_file();
-    if (corrugation.kind == "sine")
-      require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
-              {"corrugation.wavelength", "corrugation.length"},
-              "not one wave fits into the corrugation's length");
-    if (corrugation.kind == "random") {
-      require(corrugation.shortest < corrugation.longest, {"corrugation.shortest", "corrugation.longest"},
-              "the roughness' shortest wave is not shorter than its longest");
-      require(corrugation.longest <= corrugation.length + kLengthTolerance,
-              {"corrugation.longest", "corrugation.length"},
-              "the roughness' longest wave does not fit into its length");
-    }
-    if (table && corrugation.table_x.empty()) return;
-    const double first = corrugation.start + (table ? corrugation.table_x.front() : 0);
-    const double last = corrugation.start + (table ? corrugation.table_x.back() : corrugation.length);
-    const auto inside = [&](double left, double right) {
-      return first >= left - kLengthTolerance && last <= right + kLengthTolerance;
-    };
-    const std::string extent = fmt::format("the corrugation, x = {:.6g} m to {:.6g} m,", first, last);
-    std::vector<std::string> keys{"corrugation.start", table ? "corrugation.file" : "corrugation.length"};
-    const bool on_rail = inside(-rail.origin, rail.length - rail.origin);
-    const ZoneSpec zone = scene_.solution_zone();
-    require(!on_rail || inside(zone.start, zone.end()),
-            {keys[0], keys[1], "solution_zone.start", "solution_zone.length"},
-            fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, zone.start,
-                        zone.end()));
-    require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
-            fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
-                        rail.length - rail.origin));
   }
 
   void check_surface(const std::string& table, const SurfaceSpec& surface) {

@@ -156,6 +156,7 @@ LibraryEntry ballasted_60e1() {
       "The same ballasted track with rails 60E1 (EN 13674-1) and a wheel S1002 (EN 13715).",
       {
           {"rail.profile", "60E1", "EN 13674-1"},
+          {"rail.section", "60E1", "EN 13674-1"},
           {"wheel.profile", "S1002", "EN 13715"},
           {"wheel.diameter", "920 mm", "usual for coaches"},
           {"wheel.lateral_offset", "5 mm",

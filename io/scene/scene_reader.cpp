@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "io/scene/body_file.hpp"
 #include "io/scene/idle_materials.hpp"
+#include "io/scene/nameless_table.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
@@ -104,8 +105,7 @@ class SceneBuilder {
   void add_library_entry(const LibraryEntry& entry) {
     if (const LibraryEntry* base = find_library_entry(entry.base)) add_library_entry(*base);
     for (const LibraryValue& value : entry.values) {
-      const Place whole = whole_file();
-      const Origin origin{Level::library, whole, fmt::format("{}: {}", entry.name, value.source)};
+      const Origin origin{Level::library, whole_file(), fmt::format("{}: {}", entry.name, value.source)};
       set_plain(std::string(value.path), std::string(value.value), origin);
     }
   }
@@ -117,7 +117,13 @@ class SceneBuilder {
   }
 
   void add_children(const toml::table& table, const std::string& prefix, const Origin& origin) {
+    const bool nameless = lacks_names(table, prefix);
+    if (nameless) {
+      tables_unclear_ = true;
+      report(origin.place, prefix.substr(0, prefix.size() - 1), needs_name(prefix));
+    }
     for (const auto& [name, node] : table) {
+      if (nameless && !has_header(node)) continue;
       Origin own = origin;
       if (origin.level == Level::file) {
         const toml::source_position at = name.source().begin;
@@ -133,12 +139,8 @@ class SceneBuilder {
       mention(path, origin);
       add_children(*node.as_table(), path + ".", origin);
     } else if (is_table(path)) {
-      const std::optional<SceneTable> table = table_of(path);
-      const bool removable = table && table->removable() && table->name == path;
       tables_unclear_ = true;
-      report(origin.place, path,
-             fmt::format("expected a table with keys among {}; got {}{}", names_in(path), describe_node(node),
-                         removable ? fmt::format(" (to leave it out, write {}.present = false)", path) : ""));
+      report(origin.place, path, not_a_table(path, describe_node(node)));
     } else if (!find_key(path)) {
       report(origin.place, path, unknown_key(path, node.is_table(), problems_.size() < kSuggestions));
       if (!table_of(path)) tables_unclear_ = true;
@@ -237,7 +239,9 @@ class SceneBuilder {
     if (found == settings_.end() || std::holds_alternative<std::monostate>(field)) return;
     const Setting& setting = found->second;
     if (!applies(key, scene_)) {
-      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table());
+      const auto is_bad = [&](const std::string& path) { return bad_.count(path) > 0; };
+      const bool unclear = is_bad(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table()) ||
+                           std::ranges::any_of(key.only_with.needs_one, is_bad);
       if (setting.origin.level == Level::library || unclear || is_idle_value(key, *setting.node, scene_))
         return;
       report(setting.origin.place, key.path, key.only_with.why_idle());

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <map>
 
+#include "core/geometry/built_in_profiles.hpp"
 #include "io/scene/key.hpp"
 
 namespace tread {
@@ -30,6 +32,46 @@ void check_fastenings(const Scene& scene, const FasteningSpec& fastenings, Requi
           "fastenings.across_stiffness");
   require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
           {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
+}
+
+/// Half the width of the foot of a rail's section [m].
+double half_foot(const RailProfile& section) {
+  double half = 0;
+  for (const double s : section.lower.joints(0, section.lower.length()))
+    half = std::max(half, section.lower.at(s).position.x);
+  return half;
+}
+
+/// The outer spring-dampers act on the foot and on the slab.
+void check_widths(const Scene& scene, const FasteningSpec& fastenings, Require require) {
+  const RailSpec& rail = *scene.rail;
+  if (scene.body_replacing("rail")) return;
+  const double outermost = fastenings.row_offset(fastenings.rows - 1);
+  double middle = 0;  // of the foot: the rail leans about its crown
+  if (rail.profile != "box") {
+    const bool own_head = !rail.profile_y.empty();
+    const std::string& name = own_head ? rail.section : rail.profile;
+    if (std::ranges::find(kBuiltInRails, name) == kBuiltInRails.end()) return;
+    const RailProfile section = built_in_rail(name);
+    const double lean = std::atan(rail.inclination), half = half_foot(section) * std::cos(lean);
+    middle = section.height * std::sin(lean);
+    require(
+        outermost <= half + kLengthTolerance,
+        {"fastenings.pad_width", "fastenings.rows", own_head ? "rail.section" : "rail.profile"},
+        fmt::format("the outer spring-dampers lie {:.4g} mm from the middle of the foot, half of which is "
+                    "{:.4g} mm wide ({}); state a smaller fastenings.pad_width",
+                    1e3 * outermost, 1e3 * half, name));
+  }
+  if (!scene.slab_track) return;
+  const SlabSpec& slab = *scene.slab_track;
+  const double left = slab.offset - 0.5 * slab.width, right = slab.offset + 0.5 * slab.width;
+  require(
+      middle - outermost >= left - kLengthTolerance && middle + outermost <= right + kLengthTolerance,
+      {"slab.width", "slab.offset", "fastenings.pad_width", "fastenings.rows"},
+      fmt::format("the slab lies from y = {:.4g} m to {:.4g} m, the fastenings' spring-dampers from {:.4g} m "
+                  "to {:.4g} m; state a larger slab.width, another slab.offset or a smaller "
+                  "fastenings.pad_width",
+                  left, right, middle - outermost, middle + outermost));
 }
 
 void check_sleepers(const SleeperSpec& sleepers, const FasteningSpec& fastenings, Require require) {
@@ -134,6 +176,7 @@ void check_supports(const Scene& scene, Require require) {
             "a support is one of the fastenings; add [fastenings]");
   if (!scene.rail || !scene.fastenings) return;
   check_fastenings(scene, *scene.fastenings, require);
+  check_widths(scene, *scene.fastenings, require);
   if (scene.sleepers) check_sleepers(*scene.sleepers, *scene.fastenings, require);
   check_altered(scene, require);
 }

@@ -54,6 +54,7 @@ void set(const Field& field, double value) {
 /// Names before units in brackets.
 struct NamedUnit {
   std::string name, unit;
+  bool operator==(const NamedUnit&) const = default;
 };
 
 std::vector<NamedUnit> named_units(const std::string& line) {
@@ -73,11 +74,19 @@ std::vector<NamedUnit> named_units(const std::string& line) {
 class SupportParser {
  public:
   void read_line(const std::string& line) {
-    const std::vector<NamedUnit> names = columns_.empty() ? named_units(line) : std::vector<NamedUnit>{};
-    if (std::ranges::any_of(names, [](const NamedUnit& column) { return column.name == kCounted; })) {
+    ++line_;
+    const std::vector<NamedUnit> names = named_units(line);
+    const auto counted = std::ranges::find(names, kCounted, &NamedUnit::name);
+    if (counted != names.end() && columns_.empty()) {
+      stated_ = names;
+      header_line_ = line_;
       for (const NamedUnit& column : names) add_column(column);
       return;
     }
+    // Another unit stands in a comment, such as "fastening [12] is loose".
+    if (counted != names.end() && counted->unit == "-" && names != stated_)
+      throw InputError(fmt::format("the columns are {} here and {} on line {}; leave one of the lines out",
+                                   listed(names), listed(stated_), header_line_));
     const std::vector<std::string> row = table_cells(line);
     if (!row.empty()) add_row(row);
   }
@@ -88,7 +97,15 @@ class SupportParser {
   struct Column {
     const Key* key;
     Unit unit;
+    std::string unit_text;  ///< as the header states it
   };
+
+  /// "fastening [-], shift [mm]"
+  static std::string listed(const std::vector<NamedUnit>& columns) {
+    std::vector<std::string> texts;
+    for (const NamedUnit& column : columns) texts.push_back(fmt::format("{} [{}]", column.name, column.unit));
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
 
   void add_column(const NamedUnit& stated) {
     const auto key = std::ranges::find(keys_, stated.name, column_name);
@@ -100,7 +117,7 @@ class SupportParser {
     }
     if (std::ranges::find(columns_, &*key, &Column::key) != columns_.end())
       throw InputError(fmt::format("the column {} stands twice", stated.name));
-    columns_.push_back({&*key, unit_of(*key, stated)});
+    columns_.push_back({&*key, unit_of(*key, stated), stated.unit});
   }
 
   static Unit unit_of(const Key& key, const NamedUnit& stated) {
@@ -115,6 +132,11 @@ class SupportParser {
                                  key.quantity->name, key.quantity->accepted));
   }
 
+  /// A bound in the column's unit.
+  static std::string bound(const Column& column, double value) {
+    return column.key->quantity ? format_quantity(value, column.unit_text) : fmt::format("{:g}", value);
+  }
+
   void add_row(const std::vector<std::string>& row) {
     if (columns_.empty())
       throw InputError(
@@ -125,13 +147,14 @@ class SupportParser {
     Scene scene;
     scene.supports[kRow] = {};
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const auto& [key, unit] = columns_[i];
+      const auto& [key, unit, text] = columns_[i];
       const double value = parse_number(row[i], unit);
       const auto [whole, range] = rules_of(*key);
       if (!range.contains(value) || (whole && value != std::floor(value)))
-        throw InputError(fmt::format("{} = {} is not {} from {:g} to {:g}{}", column_name(*key), row[i],
-                                     whole ? "a whole number" : "a number", range.low, range.high,
-                                     key->quantity ? fmt::format(" {}", key->quantity->si) : ""));
+        throw InputError(fmt::format("{} = {} is not {} from {} to {}", column_name(*key),
+                                     row[i] + (key->quantity ? " " + text : ""),
+                                     whole ? "a whole number" : "a number", bound(columns_[i], range.low),
+                                     bound(columns_[i], range.high)));
       set(key->locate(scene), value);
     }
     supports.push_back(scene.supports[kRow]);
@@ -139,6 +162,9 @@ class SupportParser {
 
   const std::vector<Key> keys_ = column_keys();
   std::vector<Column> columns_;
+  std::vector<NamedUnit> stated_;  ///< the header
+  int line_ = 0;                   ///< from 1
+  int header_line_ = 0;
 };
 
 }  // namespace

@@ -70,10 +70,13 @@ std::string read_map_text(const std::filesystem::path& path) {
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
                 std::vector<Problem>& problems) {
   if (corrugation.kind != "map") {
-    TwoColumns columns = parse_two_columns(
-        text, name,
-        {.needs_units = true, .increasing = true, .names = kDepthNames, .deepest = kDeepestSurface},
-        problems);
+    TwoColumns columns = parse_two_columns(text, name,
+                                           {.needs_units = true,
+                                            .increasing = true,
+                                            .names = kDepthNames,
+                                            .deepest = kDeepestSurface,
+                                            .downwards = true},
+                                           problems);
     corrugation.table_x = std::move(columns.first);
     corrugation.table_depth = std::move(columns.second);
     return;
@@ -97,7 +100,8 @@ void set_depths(const std::string& text, const std::string& name, double wheel_r
                          .increasing = true,
                          .angle_first = surface.on_wheel(),
                          .names = kDepthNames,
-                         .deepest = kDeepestSurface};
+                         .deepest = kDeepestSurface,
+                         .downwards = true};
   TwoColumns columns = parse_two_columns(text, name, rules, problems);
   if (columns.angles)
     for (double& x : columns.first) x *= wheel_radius;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -132,12 +133,22 @@ class TableParser {
   void read_header(const std::vector<std::string>& texts, const std::string& line) {
     try {
       require_column_order(names_before_units(line), rules_.names);
+      if (rules_.downwards) refuse_heights(line);
       state_units(texts);
     } catch (const InputError&) {
       // This header is the problem, not that there is none.
       if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
       throw;
     }
+  }
+
+  /// Throws InputError where the last column's name is one of heights.
+  static void refuse_heights(const std::string& line) {
+    const std::string name = names_before_units(line).back();
+    const bool height = lower_case(name) == "z" || lower_case(name) == "height";
+    if (!height || lower_case(line).find("depth") != std::string::npos) return;
+    throw InputError(fmt::format(
+        "the column {} counts upwards, and depths count downwards: turn its sign and name it d", name));
   }
 
   void state_units(const std::vector<std::string>& texts) {
@@ -308,7 +319,7 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
 GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
                        std::vector<Problem>& problems, double deepest) {
   const std::vector<ColumnNames> names = {{"x", "s"}, {"y"}, {"d", "depth", "z", "height"}};
-  TableParser parser({.needs_units = true, .names = names, .deepest = deepest}, 3);
+  TableParser parser({.needs_units = true, .names = names, .deepest = deepest, .downwards = true}, 3);
   if (!parse_rows(parser, content, path, 4, problems)) return {};
   std::vector<std::vector<double>>& rows = parser.rows;
   GridColumns grid{distinct(rows, 0), distinct(rows, 1), {}};

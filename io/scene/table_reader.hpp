@@ -28,6 +28,7 @@ struct TableRules {
   std::vector<ColumnNames> names = {};  ///< by column; with these the header's order is checked
   std::string units_option = {};        ///< that states the units too, for messages
   double deepest = std::numeric_limits<double>::infinity();  ///< largest magnitude in the last column [m]
+  bool downwards = false;  ///< the last column holds depths: one that is named z or height is refused
 };
 
 /// Names of depths or heights along a way.

@@ -85,12 +85,19 @@ void read_damping(const DampingField& field, const toml::node& node) {
   }
 }
 
+/// With a point or an exponent, which TOML asks of a number that is not whole: "24.0".
+std::string as_stated(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
+}
+
 }  // namespace
 
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) return fmt::format("the string \"{}\"", text->get());
   if (const auto* integer = node.as_integer()) return fmt::format("the number {}", integer->get());
-  if (const auto* real = node.as_floating_point()) return fmt::format("the number {}", real->get());
+  if (const auto* real = node.as_floating_point()) return "the number " + as_stated(real->get());
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
   if (node.is_table()) return "a table";
   if (node.is_array()) return "an array";
@@ -117,16 +124,20 @@ void read_value(const Key& key, const toml::node& node, const fs::path& folder, 
 }
 
 bool is_idle_value(const Key& key, const toml::node& node, Scene scene) {
-  if (!key.idle_value) return false;
+  const bool idle_default = key.idle_default && table_of(key.only_with.key)->exists(scene);
+  if (!key.idle_value && !idle_default) return false;
   const Field field = key.locate(scene);
+  const auto* text = std::get_if<std::string*>(&field);
+  const std::string text_before = text ? **text : "";
   const std::optional<double> before = number_at(field);
   try {
     read_value(key, node, {}, field);
   } catch (const InputError&) {
     return false;
   }
+  if (text) return **text == text_before;
   const std::optional<double> stated = number_at(field);
-  return stated == key.idle_value || stated == before;
+  return stated == before || (key.idle_value && stated == key.idle_value);
 }
 
 }  // namespace tread

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -109,6 +110,21 @@ std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) 
   const std::string similar = suggest ? similar_path(path) : "";
   if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
   return fmt::format("unknown {} (known: {})", what, names_in(is_table(parent) ? parent : ""));
+}
+
+std::string not_a_table(const std::string& path, const std::string& got) {
+  const std::optional<SceneTable> table = table_of(path);
+  const bool removable = table && table->removable() && table->name == path;
+  return fmt::format("expected a table with keys among {}; got {}{}", names_in(path), got,
+                     removable ? fmt::format(" (to leave it out, write {}.present = false)", path) : "");
+}
+
+std::string needs_name(std::string_view tables) {
+  for (const auto& [known, name] : kOwnNames)
+    if (tables == known)
+      return fmt::format("the table needs a name: write [{}NAME]; {} consists of letters, digits, _ and -",
+                         tables, name);
+  return "";
 }
 
 }  // namespace tread

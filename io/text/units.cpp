@@ -189,6 +189,12 @@ double parse_number(std::string_view text, const Unit& unit) {
 
 double parse_ratio(std::string_view text) {
   const auto colon = text.find(':');
+  if (const auto slash = text.find('/'); slash != std::string_view::npos && colon == std::string_view::npos) {
+    std::string ratio(text);
+    ratio[slash] = ':';
+    throw InputError(
+        fmt::format("\"{}\" is not a number; write {} or {:.6g}", text, ratio, parse_ratio(ratio)));
+  }
   if (colon == std::string_view::npos) return parse_number(text);
   const double denominator = parse_number(text.substr(colon + 1));
   if (denominator == 0) throw InputError(fmt::format("\"{}\" divides by zero", text));

@@ -81,6 +81,26 @@ TEST(SceneErrors, Names) {
       "the string");
 }
 
+TEST(SceneErrors, TablesWithoutTheirNames) {
+  expect_messages({
+      {"[support]\nfastening = 3\nbed = 0",
+       "x.toml:3:2: support: the table needs a name: write [support.NAME]; a support's name consists of "
+       "letters, digits, _ and -"},
+      {"[material]\ndensity = \"1 kg/m3\"\ndamping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }",
+       "x.toml:3:2: material: the table needs a name: write [material.NAME]; a material's name consists of "
+       "letters, digits, _ and -"},
+      {"[zone]\nstart = \"3 m\"\n[zone.weld]\nstart = \"1 m\"\n[probe]",
+       "2 problems\nx.toml:3:2: zone: the table needs a name: write [zone.NAME]; a zone's name consists of "
+       "letters, digits, _ and -\n"
+       "x.toml:7:2: probe: the table needs a name: write [probe.NAME]; a probe's name consists of letters, "
+       "digits, _ and -"},
+  });
+  for (const char* table : {"surface", "body"})
+    expect_part(error_of(kBase + "[" + table + "]\nkind = \"dip\""),
+                std::string("the table needs a name: write [") + table + ".NAME]");
+  EXPECT_EQ(error_of(kBase + "[probe]\nx = { y = \"1 mm\" }\n[probe.depth]"), "accepted");
+}
+
 TEST(SceneErrors, Types) {
   expect_messages({
       {"[rail]\nlength = 15.2",
@@ -102,6 +122,10 @@ TEST(SceneErrors, Types) {
       {"[contact]\nfriction = inf", "x.toml:4:1: contact.friction: the number must be finite"},
       {"[fastenings]\ncount = 23.5",
        "x.toml:4:1: fastenings.count: expected a whole number without quotes, got the number 23.5"},
+      {"[fastenings]\ncount = 24.0",
+       "x.toml:4:1: fastenings.count: expected a whole number without quotes, got the number 24.0"},
+      {"[rail]\ninclination = \"1/40\"",
+       "x.toml:4:1: rail.inclination: \"1/40\" is not a number; write 1:40 or 0.025"},
       {"[fastenings]\ncount = 99999999999", "x.toml:4:1: fastenings.count: 99999999999 is too large"},
       {"[motion]\nspin_in_preload = 1",
        "x.toml:4:1: motion.spin_in_preload: expected true or false without quotes, got the number 1"},
@@ -219,6 +243,45 @@ TEST(SceneErrors, PartsThatDoNotFit) {
   });
 }
 
+TEST(SceneErrors, RoughnessWithoutAWave) {
+  const std::string random = "[corrugation]\nkind = \"random\"\n";
+  expect_messages({
+      {random + "shortest = \"100 mm\"\nlongest = \"110 mm\"",
+       "x.toml:6:1: corrugation.longest: no wave from 100 mm to 110 mm fits as a whole number into the "
+       "length, 0.56 m: the rail would be smooth; state a corrugation.longest above 112 mm or a "
+       "corrugation.shortest below 93.3333 mm, or another corrugation.length"},
+      {random + "shortest = \"0.1 mm\"",
+       "x.toml:5:1: corrugation.shortest: the shortest wave, 0.1 mm, fits 5600 times into the length, "
+       "0.56 m; at most 5000 times are possible: state a corrugation.shortest of at least 0.112 mm, or a "
+       "smaller corrugation.length"},
+      {random + "shortest = \"1e-20 mm\"",
+       "x.toml:5:1: corrugation.shortest: the shortest wave, 1e-20 mm, fits 5.6e+22 times into the length, "
+       "0.56 m; at most 5000 times are possible: state a corrugation.shortest of at least 0.112 mm, or a "
+       "smaller corrugation.length"},
+      {random + "shortest = \"100 mm\"\nlongest = \"113 mm\"", "accepted"},
+      {random + "shortest = \"93 mm\"\nlongest = \"110 mm\"", "accepted"},
+      {random + "shortest = \"0.112 mm\"", "accepted"},
+      // The ends fade up to the middle, where rms is reached.
+      {random + "longest = \"0.56 m\"", "accepted"},
+  });
+}
+
+TEST(SceneErrors, FasteningsBesideFootAndSlab) {
+  expect_messages({
+      {"[fastenings]\npad_width = \"0.3 m\"",
+       "x.toml:4:1: fastenings.pad_width: the outer spring-dampers lie 112.5 mm from the middle of the foot, "
+       "half of which is 74.98 mm wide (CN60); state a smaller fastenings.pad_width"},
+      {"[slab]\nwidth = \"0.1 m\"",
+       "x.toml:4:1: slab.width: the slab lies from y = -0.05 m to 0.05 m, the fastenings' spring-dampers "
+       "from -0.05185 m to 0.06065 m; state a larger slab.width, another slab.offset or a smaller "
+       "fastenings.pad_width"},
+      {"[rail]\nprofile = \"49E1\"", "accepted"},
+      {"[slab]\nwidth = \"0.13 m\"", "accepted"},
+  });
+  expect_part(error_of(kBase + "[slab]\noffset = \"0.6 m\""),
+              "x.toml:4:1: slab.offset: the slab lies from y = -0.0375 m to ");
+}
+
 TEST(SceneErrors, ComponentsThatLackOthers) {
   expect_messages({
       {"[load]\nwheel_load = \"80 kN\"",
@@ -285,6 +348,27 @@ TEST(SceneErrors, KeysWithoutEffect) {
        "corrugation.centre\n"
        "x.toml:5:1: corrugation.depth: has an effect only with corrugation.kind = \"sine\""},
   });
+}
+
+TEST(SceneErrors, TractionThatActsOnNothing) {
+  const auto traction = [](const std::string& keys) {
+    return error_of(kBase + "[motion]\ntraction = { " + keys + " }");
+  };
+  const std::string idle = "has no effect without motion.traction.mu or motion.traction.torque";
+  EXPECT_EQ(traction("ramp = \"1 ms\""), "x.toml:4:14: motion.traction.ramp: " + idle);
+  EXPECT_EQ(traction("shape = \"smooth\""), "x.toml:4:14: motion.traction.shape: " + idle);
+  EXPECT_EQ(traction("reversals = 2"), "x.toml:4:14: motion.traction.reversals: " + idle);
+  for (const char* keys :
+       {"mu = 0.3, ramp = \"1 ms\", reversals = 2", "torque = \"3 kN m\", shape = \"smooth\"",
+        // Files of resolved scenes may hold the defaults.
+        "ramp = \"5 ms\", shape = \"linear\", reversals = 0"})
+    EXPECT_EQ(traction(keys), "accepted") << keys;
+  // The wrong coefficient is the only problem.
+  EXPECT_EQ(traction("mu = \"high\", ramp = \"1 ms\""),
+            "x.toml:4:14: motion.traction.mu: expected a number without quotes, got the string \"high\"");
+  expect_part(traction("mu = 0.3, ramp = \"0 ms\", reversals = 2"),
+              "motion.traction.reversals: a reversal takes 2 T1, and motion.traction.ramp = 0 leaves no time "
+              "for it; state a motion.traction.ramp above 0, or motion.traction.reversals = 0");
 }
 
 TEST(SceneErrors, Materials) {
@@ -426,6 +510,18 @@ TEST(SceneErrors, ThousandsOfProblemsAreListedInShort) {
   EXPECT_LT(processor_time(50000), 40 * few);
   EXPECT_EQ(message.substr(0, 15), "50000 problems\n");
   EXPECT_LT(std::count(message.begin(), message.end(), '\n'), 60);
+}
+
+TEST(SceneErrors, ThousandsOfTablesTakeTimeInProportion) {
+  const auto processor_time = [](int probes) {
+    std::string text = kBase;
+    for (int i = 0; i < probes; ++i) text += "[probe.p" + std::to_string(i) + "]\nx = \"2.5 m\"\n";
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(error_of(text), "accepted");
+    return static_cast<double>(std::clock() - start);
+  };
+  const double few = processor_time(300);
+  EXPECT_LT(processor_time(3000), 40 * few);
 }
 
 class Files : public testing::Test {
@@ -602,6 +698,27 @@ TEST_F(Files, DepthsOfAWrongUnit) {
               "column, [m]; in [um] it would be -0.02 mm");
   EXPECT_EQ(refusal("[surface.a]\nkind = \"profile\"\n" + at, "# x [m]  d [mm]\n0 -10\n0.1 10\n"),
             "accepted");
+}
+
+/// Heights count upwards, depths downwards.
+TEST_F(Files, HeightsInPlaceOfDepths) {
+  const auto refusal = [&](const std::string& table, const std::string& rows) {
+    write("depth.txt", rows);
+    return scene_error(write("depth.toml", kBase + table + "file = \"depth.txt\"\n"));
+  };
+  const auto counts = [&](const std::string& name) {
+    return (folder_ / "depth.txt").string() + ":1: the column " + name +
+           " counts upwards, and depths count downwards: turn its sign and name it d";
+  };
+  const std::string profile = "[surface.a]\nkind = \"profile\"\nat = \"2.7 m\"\n";
+  const std::string map = "[surface.a]\nkind = \"map\"\nat = \"2.7 m\"\n";
+  EXPECT_EQ(refusal("[corrugation]\nkind = \"table\"\n", "# x [m]  z [um]\n0 0\n0.1 3\n"), counts("z"));
+  EXPECT_EQ(refusal(profile, "# x [m]  Height [um]\n0 0\n0.1 3\n"), counts("Height"));
+  const std::string grid = "\n0 0 1\n1 0 2\n0 1 1\n1 1 3\n";
+  EXPECT_EQ(refusal(map, "# x [mm]  y [mm]  z [um]" + grid), counts("z"));
+  EXPECT_EQ(refusal("[corrugation]\nkind = \"map\"\n", "# x [mm]  y [mm]  z [um]" + grid), counts("z"));
+  for (const char* name : {"d", "depth", "depth z", "wear"})
+    EXPECT_EQ(refusal(profile, std::string("# x [m]  ") + name + " [um]\n0 0\n0.1 3\n"), "accepted") << name;
 }
 
 TEST_F(Files, ProfilesWhoseAxesAreMistaken) {

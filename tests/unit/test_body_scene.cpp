@@ -215,6 +215,16 @@ TEST_F(BodyScene, NeedsThePartThatItReplaces) {
       std::string::npos);
 }
 
+TEST_F(BodyScene, KeysOfTheDiscThatIsReplacedAreNamed) {
+  EXPECT_EQ(refusal(disc("web"), {"wheel.brake_rings=true"}),
+            "--set: wheel.brake_rings: the rings lie on the disc, which the file replaces; state "
+            "wheel.brake_rings = false");
+  for (const std::string key : {"wheel.web_offset", "wheel.web_wave"})
+    EXPECT_EQ(refusal(disc("web"), {key + "=10 mm"}),
+              "--set: " + key + ": the web is a part of the disc, which the file replaces; state " + key +
+                  " = \"0 mm\"");
+}
+
 /// Steps on a device, decks and the multi-body approach know swept parts alone.
 TEST_F(BodyScene, IsRefusedWhereItCannotBeUsed) {
   const ResolvedScene scene = resolved(disc("web"));

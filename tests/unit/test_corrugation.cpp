@@ -122,6 +122,17 @@ TEST(Corrugation, RoughnessIsTheSameForASeedAndFadesAtItsEnds) {
   EXPECT_LT(rough.deepest(), 2 * (deepest - lowest));
 }
 
+TEST(Corrugation, WavesOfABandAreWholeNumbers) {
+  const auto waves = [](double shortest, double longest, double length) {
+    const WaveRange range = waves_of(shortest, longest, length);
+    return std::vector<double>{range.first, range.last};
+  };
+  EXPECT_EQ(waves(0.03, 0.12, 0.6), (std::vector<double>{5, 20}));
+  EXPECT_EQ(waves(0.1, 0.11, 0.56), (std::vector<double>{6, 5}));  // none
+  EXPECT_EQ(waves(0.08, 0.08, 0.56), (std::vector<double>{7, 7}));
+  EXPECT_GT(waves(1e-20, 0.1, 1).back(), 9e19);
+}
+
 TEST(Corrugation, RoughnessHoldsTheWavesOfItsBandAlone) {
   const double length = 0.6;
   const Corrugation rough = Corrugation::rough({3e-6, 0.03, 0.12, 7}, 0, length, 0, 0.03);

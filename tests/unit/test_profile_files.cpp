@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/built_in_profiles.hpp"
+#include "io/profiles/column_profile.hpp"
 #include "io/scene/profile_file.hpp"
 
 namespace tread {
@@ -283,6 +284,14 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
     }
     EXPECT_NE(answer.find(file.message), std::string::npos) << answer;
   }
+}
+
+/// No double holds such a number of rows.
+TEST(ProfileFiles, AFirstLineOfFourHundredDigitsIsAHeader) {
+  std::vector<LineFault> faults;
+  const FilePoints points = read_column_profile(std::string(400, '9') + "\n" + rows(rail()), faults);
+  EXPECT_TRUE(faults.empty());
+  EXPECT_EQ(points.y.size(), rail().y.size());
 }
 
 }  // namespace

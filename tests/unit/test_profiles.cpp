@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -198,6 +199,27 @@ TEST(RailWithHead, RecoversTheProfileItWasSampledFrom) {
   for (double at = -35 * mm; at < 35 * mm; at += 0.1 * mm)
     EXPECT_NEAR(rail.running.at(rail.running.at_x(at)).position.y,
                 exact.running.at(exact.running.at_x(at)).position.y, std::abs(at) < 24.5 * mm ? 3e-8 : 2e-5);
+}
+
+TEST(RailWithHead, SuggestsTheShiftInPlaceOfTheStatedOne) {
+  const RailProfile exact = cn60();
+  std::vector<double> y, z;
+  const double length = exact.running.length();
+  const double start = exact.running.at_x(-35.3 * mm), end = length - start;
+  for (int i = 0; i <= 300; ++i) {
+    const Point2 p = exact.running.at(start + (end - start) * i / 300).position;
+    y.push_back(p.x + 5 * mm);
+    z.push_back(p.y);
+  }
+  try {
+    rail_with_head(y, z, cn60(), 2 * mm);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("its own middle is y = 5.0 mm, which rail.profile_shift = \"-3.0 mm\" corrects"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Crowned, IsTheCircleItSays) {

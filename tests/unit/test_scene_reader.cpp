@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -162,6 +163,24 @@ TEST(SceneReader, LibraryEntryStandsOnItsBase) {
   EXPECT_EQ(scene.scene.fastenings->stiffness, 22e6);
   EXPECT_EQ(source_of(scene, "fastenings.stiffness"), "highspeed-slab-2014: Table 1");
   EXPECT_EQ(source_of(scene, "rail.origin").rfind("highspeed-slab-2014-calibrated: ", 0), 0U);
+}
+
+TEST(SceneReader, AHeadFromAFileBelongsToTheRailOfTheLibraryEntry) {
+  const std::string base = "[scene]\nbased_on = \"ballasted-60e1\"\n";
+  SceneSource source{"scene.toml", base + "[rail]\nprofile = \"head.txt\"\n", "/nowhere"};
+  source.files = {{"/nowhere/head.txt", "# y [mm]  z [mm]\n-36 -14\n-20 -1\n0 0\n20 -1\n36 -14\n"}};
+  const ResolvedScene worn = resolve_scene(source);
+  EXPECT_EQ(worn.scene.rail->section, "60E1");
+  EXPECT_EQ(source_of(worn, "rail.section"), "ballasted-60e1: EN 13674-1");
+  EXPECT_EQ(resolve_scene(source, {"rail.section=60E2"}).scene.rail->section, "60E2");
+  EXPECT_EQ(value_of(resolve(base), "rail.section"), "absent");
+}
+
+TEST(SceneReader, KeysOfTheTorqueStandInTheResolvedSceneOnlyWithOne) {
+  EXPECT_EQ(value_of(resolve(kBase), "motion.traction.ramp"), "absent");
+  const ResolvedScene driven = resolve(kBase, {"motion.traction.mu=0.1"});
+  EXPECT_EQ(value_of(driven, "motion.traction.ramp"), "0.005 s");
+  expect_round_trip(driven);
 }
 
 TEST(SceneReader, LaterLevelsOverrideEarlierOnes) {
@@ -333,6 +352,26 @@ TEST(Schema, KnowsTheKeysOfMaterialsOfAnyName) {
   EXPECT_EQ(usual_user("steel"), "wheel");
   EXPECT_EQ(usual_user("mortar"), "slab");
   EXPECT_EQ(usual_user("wheel_steel"), "");
+}
+
+TEST(Schema, TheKeyOfATablesPresenceAffectsWhatTheTablesKeysDo) {
+  EXPECT_EQ(find_key("hammer.present")->effects, Effects({Effect::motion}));
+  EXPECT_EQ(find_key("probe.a.present")->effects, Effects({Effect::output}));
+  TableNames names;
+  names.zones = {"a", "b"};
+  names.probes = {"a"};
+  const std::map<std::string, Effects> expected = {{"zone.a.present", {Effect::mesh}},
+                                                   {"zone.b.present", {Effect::mesh}},
+                                                   {"probe.a.present", {Effect::output}},
+                                                   {"hammer.present", {Effect::motion}}};
+  std::size_t found = 0;
+  for (const Key& key : scene_keys(names)) {
+    const auto known = expected.find(key.path);
+    if (known == expected.end()) continue;
+    ++found;
+    EXPECT_EQ(key.effects, known->second) << key.path;
+  }
+  EXPECT_EQ(found, expected.size());
 }
 
 TEST(Schema, EveryKeyIsWellFormed) {

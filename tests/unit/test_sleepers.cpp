@@ -253,6 +253,12 @@ TEST(SupportFile, IsTheSameAsTables) {
   }
 }
 
+TEST(SupportFile, MayRepeatItsHeader) {
+  const std::string file = support_file(
+      "# fastening [-]  bed [-]\n1 0.5\n# fastening [-]  bed [-]\n# fastening [2] hangs [nearly]\n2 0.1\n");
+  EXPECT_EQ(samples::tyre_scene(ballasted({"fastenings.supports=" + file})).support(1).bed, 0.1);
+}
+
 TEST(SupportFile, NamesWhatIsWrong) {
   const auto says = [](const std::string& text, const std::string& expected,
                        const std::vector<std::string>& more = {}) {
@@ -276,6 +282,14 @@ TEST(SupportFile, NamesWhatIsWrong) {
   says("# fastening [-]  bed [-]\n1 -1\n", ":2: bed = -1 is not a number from 0 to 1000");
   says("# fastening [-]  bed [-]\n1.5 1\n", "fastening = 1.5 is not a whole number from 1");
   says("# fastening [-]  holds [-]\n1 0.5\n", "holds = 0.5 is not a whole number from 0 to 1");
+  says("# fastening [-]  shift [mm]\n2 20000\n",
+       ":2: shift = 20000 mm is not a number from -10000 mm to 10000 mm");
+  says(
+      "# fastening [-]  bed [-]\n1 0.5\n# fastening [-]  stiffness [-]\n2 0.5\n",
+      ":3: the columns are fastening [-], stiffness [-] here and fastening [-], bed [-] on line 1; leave one "
+      "of the lines out");
+  says("# fastening [-]  shift [mm]\n1 2\n# fastening [-]  shift [m]\n2 0.002\n",
+       ":3: the columns are fastening [-], shift [m] here and");
   says("# fastening [-]  bed [-]\n1 1\n1 2\n", "fastening 1 stands twice");
   says("# fastening [-]  bed [-]\n7 1\n", "there is no fastening 7: they count 3");
   says("# fastening [-]  shift [m]\n2 0.5\n", "fastening 2: at x = ");

@@ -106,6 +106,14 @@ TEST(Units, RatiosAndNumbersAreStrict) {
   for (const char* text : {"1:0", "1:", ":40", "1:2:3", "0x10", "1 2", "1.2.3", "--1", "+-1", "1e", "inf"}) {
     EXPECT_THROW(parse_ratio(text), InputError) << text;
   }
+  for (const char* text : {"1/0", "1/2/3", "a/b", "/", "1/2:3"})
+    EXPECT_THROW(parse_ratio(text), InputError) << text;
+  try {
+    parse_ratio("1/40");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "\"1/40\" is not a number; write 1:40 or 0.025");
+  }
 }
 
 TEST(Units, FormatShowsTheUnitAskedFor) {

@@ -84,7 +84,8 @@ ShownProfile shown_profile(const std::string& name, std::optional<bool> wheel,
         throw InputError(
             fmt::format("--section {}: choose from {}", options.section, fmt::join(kBuiltInRails, ", ")));
       shown.curve = curve_through(shown.file->y, shown.file->z, "rail profile");
-      shown.section = rail_with_head(shown.file->y, shown.file->z, built_in_rail(options.section));
+      shown.section =
+          rail_with_head(shown.file->y, shown.file->z, built_in_rail(options.section), wish.shift);
       shown.curve = shown.section->running;
     }
   } catch (const InputError& error) {
