@@ -47,7 +47,13 @@ void add_bench_scaling(CLI::App& bench) {
       ->check(CLI::Range(100, 100000000));
   command.add_flag("--json", state->options.json, "one JSON object a line on stdout");
   command.callback([state] {
-    if (state->arguments.scene.empty())
+    const SceneArguments& stated = state->arguments;
+    if (stated.scene.empty() &&
+        !(stated.quality.empty() && stated.precision.empty() && stated.overrides.empty()))
+      throw InputError(
+          "tread bench scaling: --quality, --precision and --set change a scene, and none is stated; state "
+          "one, or leave them out");
+    if (stated.scene.empty())
       bench_scaling(state->options);
     else
       bench_scaling(state->arguments.resolve(), state->options);

@@ -10,7 +10,7 @@
 #include "drivers/cli/common_options.hpp"
 #include "drivers/report/scene_check.hpp"
 #include "drivers/results/scene_model.hpp"
-#include "drivers/run/run_scene.hpp"
+#include "drivers/run/run_refusals.hpp"
 #include "drivers/studies/dial/dial_advice.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"

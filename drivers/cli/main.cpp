@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "drivers/cli/command_table.hpp"
 #include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
 #include "drivers/cli/exit_codes.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/cli/wrong_word.hpp"
@@ -125,9 +126,14 @@ int run(int argc, char** argv) {
     // A misspelt word may be why another one is missing.
     const std::vector<std::string> unknown = app.remaining(true);
     const tread::CommandEntry command = named_command(app);
-    throw tread::InputError(unknown.empty() ? fmt::format("{}: {}; `{} --help` shows how", command.name(" "),
-                                                          error.what(), command.name(" "))
-                                            : tread::wrong_word(command, {argv + 1, argv + argc}, unknown));
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+    tread::report_problems(json, [&] {
+      throw tread::InputError(unknown.empty()
+                                  ? fmt::format("{}: {}; `{} --help` shows how", command.name(" "),
+                                                error.what(), command.name(" "))
+                                  : tread::wrong_word(command, words, unknown));
+    });
   }
   if (verbose)
     clock.say(fmt::format("[tread] {}, {} of memory at the most", tread::duration_text(clock.seconds()),

@@ -1,5 +1,7 @@
 #include "drivers/report/report_figures.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -76,7 +78,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
             {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
   if (std::vector<Series> surfaces = running_surfaces(model, *figure.x_range); !surfaces.empty())
     figure.panels.push_back(panel("Surface [mm]", std::move(surfaces), {}, 90));
-  figure.caption += "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4);
+  figure.caption += fmt::format("Where F_L meets f F_N the whole patch slides. f = {:g}", f);
   figure.caption += scene.contact->friction_law == "coulomb" ? "." : ", the largest coefficient of friction.";
   return figure;
 }

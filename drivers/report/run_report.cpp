@@ -275,7 +275,7 @@ Chapter cost_chapter(const Run& run) {
   q.add("Mesh and coefficients", r.seconds_mesh, "s");
   q.add("Preload", r.seconds_preload, "s",
         r.origin                ? "of the other run"
-        : r.preload_cached != 0 ? "found by an earlier run"
+        : r.preload_cached != 0 ? "time of the earlier run that solved it"
                                 : "");
   if (r.steps > 0) {
     const double element_steps = elements * static_cast<double>(r.own_steps());

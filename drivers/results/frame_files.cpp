@@ -130,18 +130,30 @@ std::vector<std::int64_t> frame_steps(int count, std::int64_t steps) {
   return due;
 }
 
-FrameFiles::FrameFiles(const Model& model, fs::path directory, std::int64_t steps, double dt)
+FrameFiles::FrameFiles(const Model& model, fs::path directory, std::int64_t steps, double dt,
+                       std::int64_t reached)
     : model_(&model),
       directory_(std::move(directory)),
       dt_(dt),
       due_(frame_steps(model.scene.output.frames, steps)) {
   remove_parts(folder());
+  remove_later(reached, steps);
   for (const std::int64_t step : steps_in(folder(), kSuffix))
     if (!begins_as_hdf5(step_file(folder(), step, kSuffix))) damaged_.push_back(step);
   const std::vector<std::int64_t> frames = there();
   std::erase_if(due_,
                 [&](std::int64_t step) { return std::binary_search(frames.begin(), frames.end(), step); });
-  if (!frames.empty() || !damaged_.empty()) write_series();
+  std::error_code ignored;
+  if (!frames.empty() || !damaged_.empty())
+    write_series();
+  else
+    fs::remove(directory_ / kSeries, ignored);
+}
+
+void FrameFiles::remove_later(std::int64_t reached, std::int64_t end) const {
+  std::error_code ignored;
+  for (const std::int64_t step : steps_in(folder(), kSuffix))
+    if (step > end || (step > reached && due(step))) fs::remove(step_file(folder(), step, kSuffix), ignored);
 }
 
 std::vector<std::int64_t> FrameFiles::there() const {

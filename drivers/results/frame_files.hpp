@@ -32,9 +32,11 @@ class FieldCopy {
 
 class FrameFiles {
  public:
-  /// `steps`: number of steps of the whole run, `dt`: one step [s]. Frames in the folder stay: they hold the
-  /// bits that would be written again.
-  FrameFiles(const Model& model, std::filesystem::path directory, std::int64_t steps, double dt);
+  /// `steps`: number of steps of the whole run, `dt`: one step [s], `reached`: steps that the run has done.
+  /// Frames up to there stay in the folder. Removes later ones that the run writes when it comes to them, or
+  /// never; those on request before its end stay: they hold the bits that the run will have.
+  FrameFiles(const Model& model, std::filesystem::path directory, std::int64_t steps, double dt,
+             std::int64_t reached);
 
   bool due(std::int64_t steps) const;
 
@@ -70,6 +72,7 @@ class FrameFiles {
   };
 
   std::filesystem::path folder() const;
+  void remove_later(std::int64_t reached, std::int64_t end) const;
   /// Steps of the frames in the folder, ascending; damaged ones are left out.
   std::vector<std::int64_t> there() const;
   void begin();

@@ -10,9 +10,11 @@
 #include <span>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
+#include "drivers/process/progress.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/text/text_file.hpp"
@@ -26,6 +28,19 @@ namespace {
 
 constexpr const char* kOff = "off";
 constexpr const char* kGroup = "preload";
+constexpr const char* kSeconds = "solved/seconds";  ///< entries of older programs lack it
+
+using PreloadClock = std::chrono::steady_clock;
+
+double time_since(PreloadClock::time_point start) {
+  return std::chrono::duration<double>(PreloadClock::now() - start).count();
+}
+
+FoundPreload solved(const std::function<Preload()>& solve) {
+  const PreloadClock::time_point start = PreloadClock::now();
+  Preload preload = solve();
+  return {std::move(preload), false, time_since(start)};
+}
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -97,16 +112,18 @@ std::string preload_key(const ResolvedScene& resolved, const Model& model) {
 
 /// The preload that the cache has under the key; nothing where it has none. Why an entry is of no use goes to
 /// `say`.
-std::optional<Preload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
-                                      const ProgressText& say) {
+std::optional<FoundPreload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
+                                           const ProgressText& say) {
   std::string refused;
   const std::optional<SealedContent> content = cache.find(key, refused);
   try {
     if (!content && refused.empty()) return std::nullopt;
     if (!content) throw InputError(refused);
-    Preload preload = unpack_preload(*content, model);
+    FoundPreload found{unpack_preload(*content, model), true, {}};
+    if (content->contains(kSeconds)) found.seconds = sealed_value<double>(*content, kSeconds);
+    const Preload& preload = found.preload;
     if (model.contact) model.contact->find_static({preload.displacement.data(), nullptr, &preload.wheel});
-    return preload;
+    return found;
   } catch (const InputError& error) {
     say(fmt::format("{}; solved again", error.what()));
     return std::nullopt;
@@ -117,13 +134,12 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
 /// have it; what is returned keeps other processes waiting. Nothing where there are no locks.
 std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
                                       const ProgressText& say, const std::function<void()>& wait) {
-  using Clock = std::chrono::steady_clock;
   constexpr auto kLongest = std::chrono::minutes(30);
   constexpr auto kLook = std::chrono::milliseconds(100);
-  const Clock::time_point started = Clock::now();
+  const PreloadClock::time_point started = PreloadClock::now();
   bool told = false;
   try {
-    while (Clock::now() - started < kLongest) {
+    while (PreloadClock::now() - started < kLongest) {
       if (std::optional<FileLock> claim = cache.claim(key)) return claim;
       if (!std::exchange(told, true)) say("another process solves it; waiting for that");
       wait();
@@ -137,11 +153,12 @@ std::optional<FileLock> claim_preload(const ContentCache& cache, const std::stri
 }
 
 /// Keeps the preload; why it cannot goes to `say`.
-void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,
+void keep_preload(const ContentCache& cache, const std::string& key, FoundPreload& found,
                   const ProgressText& say) {
   try {
     SealedContent content;
-    pack(fields_of(preload), kGroup, content);
+    pack(fields_of(found.preload), kGroup, content);
+    if (found.seconds) content[kSeconds] = std::vector<double>{*found.seconds};
     cache.store(key, std::move(content));
   } catch (const ResourceError& error) {
     say(fmt::format("not kept for later runs: {}; TREAD_CACHE or --cache names another folder, or off",
@@ -162,18 +179,20 @@ std::optional<ContentCache> preload_cache(const std::string& place) {
 FoundPreload find_preload(const std::optional<ContentCache>& cache, const ResolvedScene& resolved,
                           Model& model, const std::function<Preload()>& solve, const ProgressText& say,
                           const std::function<void()>& wait) {
-  if (!cache) return {solve(), false};
+  if (!cache) return solved(solve);
+  const PreloadClock::time_point started = PreloadClock::now();
   const std::string key = preload_key(resolved, model);
   const auto quietly = [](const std::string&) {};
-  std::optional<Preload> known = recall_preload(*cache, key, model, quietly);
+  std::optional<FoundPreload> known = recall_preload(*cache, key, model, quietly);
   const std::optional<FileLock> claim = known ? std::nullopt : claim_preload(*cache, key, say, wait);
   if (!known) known = recall_preload(*cache, key, model, say);
   if (known) {
-    say(fmt::format("found by an earlier run, kept in {}", cache->folder().string()));
-    return {std::move(*known), true};
+    say(fmt::format("found by an earlier run, kept in {}; that took {}", cache->folder().string(),
+                    duration_text(time_since(started))));
+    return std::move(*known);
   }
-  FoundPreload found{solve(), false};
-  keep_preload(*cache, key, found.preload, say);
+  FoundPreload found = solved(solve);
+  keep_preload(*cache, key, found, say);
   return found;
 }
 

@@ -43,7 +43,7 @@ void Rolling::begin() {
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
   results_->measured = MeasuredRows(simulation_->measurements().channels());
   files_.emplace(*model_, session_->folder.path(), *results_);
-  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, 0);
 }
 
 void Rolling::go_on(const SealedContent& checkpoint) {
@@ -53,15 +53,11 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                                     results_->samples.size());
   files_.emplace(*model_, session_->folder.path(), *results_,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
-  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, simulation_->steps());
   for (const std::string& gap : frames_->gaps(simulation_->steps()))
     session_->progress.say("[warning] " + gap);
   written_ = Mark{simulation_->steps(), simulation_->time()};
   seconds_before_ = results_->seconds_rolling;
-  if (simulation_->steps() > end_)
-    throw InputError(fmt::format("motion.duration = {:g} ms: the run has already come to {}",
-                                 1e3 * model_->scene.motion->duration,
-                                 instant(written_->time, written_->steps)));
 }
 
 void Rolling::restore(const SealedContent& run) {
@@ -73,7 +69,7 @@ void Rolling::restore(const SealedContent& run) {
 /// The other ranks take the run over as a process that resumes it would.
 void Rolling::begin_ranks() {
   if (followers_.absent()) return;
-  followers_.begin(pack_all(""), *simulation_, session_->options);
+  followers_.begin(pack_all(""), *simulation_, session_->options.threads);
   session_->progress.say("[ranks] " + followers_.description(0));
 }
 
@@ -83,7 +79,7 @@ void Rolling::even_ranks() {
   followers_.fetch(*simulation_);
   SealedContent run = pack_all("");
   restore(run);
-  followers_.begin(std::move(run), *simulation_, session_->options);
+  followers_.begin(std::move(run), *simulation_, session_->options.threads);
   session_->progress.say(fmt::format("[ranks] {}: shared anew by the ranks' times; {}",
                                      instant(simulation_->time(), simulation_->steps()),
                                      followers_.shares()));

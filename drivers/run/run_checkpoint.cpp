@@ -227,7 +227,7 @@ MeasuredRows::Kept unpack_measured(const SealedContent& content) {
           sealed_entry<std::vector<double>>(content, kMeasured + "/values")};
 }
 
-void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation) {
+void require_same_mesh(const SealedContent& content, const Model& model) {
   const std::int64_t lanes = sealed_value<std::int64_t>(content, "made/lanes");
   if (lanes != kLanes)
     throw InputError(
@@ -235,6 +235,10 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
                     "wrote it",
                     lanes, kLanes));
   check_mesh(content, model);
+}
+
+void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation) {
+  require_same_mesh(content, model);
   unpack(content, "state", simulation.state());
   const auto hash = static_cast<std::uint64_t>(sealed_value<std::int64_t>(content, "made/state_hash"));
   if (hash != simulation.state_hash()) throw InputError("its state hash differs");

@@ -55,6 +55,9 @@ void unpack_results(const SealedContent& content, RunResults& results);
 /// The measured values of `results` as pack_run() took them; their columns are those of that run.
 MeasuredRows::Kept unpack_measured(const SealedContent& content);
 
+/// InputError where the state was made with other lanes or on another mesh.
+void require_same_mesh(const SealedContent& content, const Model& model);
+
 /// Restores the state of the simulation and of the model's parts. Throws InputError if the checkpoint was
 /// made on another mesh.
 void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation);

@@ -2,9 +2,27 @@
 
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <optional>
+
 #include "core/error.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/results/scene_model.hpp"
 
 namespace tread {
+
+namespace {
+
+void require_rail_for(const Scene& made, const Scene& later) {
+  const double planned = made.motion->duration;
+  if (made.wheel && later.motion->duration > planned)
+    throw InputError(
+        fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
+                    "began with; state a longer duration when a run begins and end it early",
+                    1e3 * later.motion->duration, 1e3 * planned));
+}
+
+}  // namespace
 
 ResolvedScene resolve_with_later(const RunOrder& order) {
   std::vector<std::string> all = order.overrides;
@@ -16,13 +34,25 @@ void adopt_later_values(Model& model, const Scene& later) {
   model.scene.output = later.output;
   model.scene.stop = later.stop;
   if (!model.scene.motion) return;
-  const double planned = model.scene.motion->duration;
-  if (model.scene.wheel && later.motion->duration > planned)
-    throw InputError(
-        fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
-                    "began with; state a longer duration when a run begins and end it early",
-                    1e3 * later.motion->duration, 1e3 * planned));
+  require_rail_for(model.scene, later);
   model.scene.motion->duration = later.motion->duration;
+}
+
+void require_later_end(const Scene& made, const Scene& later, const SealedContent* state) {
+  if (!made.motion) return;
+  require_rail_for(made, later);
+  if (!state) return;
+  const auto steps = sealed_value<std::int64_t>(*state, "state/steps");
+  if (steps > step_count(later, sealed_value<double>(*state, "results/dt")))
+    throw InputError(fmt::format(
+        "motion.duration = {:g} ms: the run has already come to t = {:.6e} s (step {}); state a later end",
+        1e3 * later.motion->duration, sealed_value<double>(*state, "state/time"), steps));
+}
+
+Model run_model(const ResolvedScene& made, const SealedContent* state, RunResults& results) {
+  if (state) unpack_results(*state, results);
+  return scene_model(made.scene, made,
+                     state ? std::optional(deepest_line(made.scene, results.preload)) : std::nullopt);
 }
 
 }  // namespace tread

@@ -2,6 +2,7 @@
 // The model of a run, as a process that goes on with the run makes it.
 
 #include "drivers/engine/model.hpp"
+#include "drivers/results/run_results.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 
 namespace tread {
@@ -12,5 +13,13 @@ ResolvedScene resolve_with_later(const RunOrder& order);
 /// Takes over output, limits and duration from the scene of resolve_with_later(). Throws InputError where the
 /// rail is too short for the duration.
 void adopt_later_values(Model& model, const Scene& later);
+
+/// InputError where a run whose model is of the scene `made` cannot end when `later` says: the rail is too
+/// short, or the run's `state` is beyond that. [nullptr: no state yet]
+void require_later_end(const Scene& made, const Scene& later, const SealedContent* state);
+
+/// The model of the scene `made`. With a `state` the run's results come out of it, and the model has its
+/// corrugation. [nullptr: no state yet]
+Model run_model(const ResolvedScene& made, const SealedContent* state, RunResults& results);
 
 }  // namespace tread

@@ -13,29 +13,26 @@
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
-#include "drivers/engine/traction.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/report/run_report.hpp"
 #include "drivers/results/deflection.hpp"
-#include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/run_warnings.hpp"
-#include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/rolling.hpp"
 #include "drivers/run/run_model.hpp"
+#include "drivers/run/run_refusals.hpp"
 #include "drivers/run/run_session.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/scene/schema.hpp"
 #include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 #include "kernels/device/device.hpp"
@@ -103,17 +100,8 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
       [&] { obey_before_first_step(session); });
   results.preload = std::move(found.preload);
   if (found.cached) results.preload_cached = 1;
-  results.seconds_preload = session.progress.seconds() - started;
-}
-
-void require_disk(const Model& model, const RunResults& results) {
-  const std::optional<double>& limit = model.scene.output.disk_limit;
-  const std::int64_t needed = disk_use(model, results.dt).total();
-  if (limit && static_cast<double>(needed) > *limit)
-    throw InputError(
-        fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
-                    "output.history_interval, or state less output.frames",
-                    bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
+  // Waiting and reading are no cost of the scene: a cached preload keeps the time of its solving.
+  results.seconds_preload = found.seconds.value_or(session.progress.seconds() - started);
 }
 
 void choose_step(const RunSession& session, const Model& model, RunResults& results) {
@@ -165,15 +153,13 @@ void showing_failure(const RunSession& session, const std::function<void()>& act
 /// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
 /// included.
 void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
-  keep_scene(session.folder.path(), session.resolved);
+  const bool resumed = checkpoint && !fork;
+  if (!resumed) keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
   const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
   RunResults results;
   results.origin = session.order.origin;
-  if (checkpoint) unpack_results(*checkpoint, results);
-  const std::optional<double> deepest =
-      checkpoint ? std::optional(deepest_line(made.scene, results.preload)) : std::nullopt;
-  Model model = scene_model(made.scene, made, deepest);
+  Model model = run_model(made, checkpoint, results);
   adopt_later_values(model, session.resolved.scene);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
@@ -194,10 +180,13 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   if (scene.motion) {
     if (!checkpoint) choose_step(session, model, results);
     Rolling rolling(session, model, results);
-    if (checkpoint)
+    if (checkpoint) {
       rolling.go_on(*checkpoint);
-    else
+      // Not before: a refused checkpoint must leave the scene of the run as it was.
+      if (resumed) keep_scene(session.folder.path(), session.resolved);
+    } else {
       rolling.begin();
+    }
     rolling.to_the_end();
   }
   try {
@@ -224,44 +213,6 @@ void remove_results(const std::filesystem::path& directory) {
     std::filesystem::remove(directory / name, ignored);
   FrameFiles::remove(directory);
   remove_figures(directory / kFigureFolder);
-}
-
-/// Finds the faults of a scene that its model and its disk use show, before an earlier run is thrown away.
-void rehearse(const RunSession& session, const ResolvedScene& resolved) {
-  preload_cache(session.options.cache);
-  require_runnable(scene_model(resolved.scene, resolved, std::nullopt));
-}
-
-/// A run is not thrown away by mistake, finished or not, and not for a scene that cannot run.
-void refuse_to_overwrite(const RunSession& session, const ResolvedScene& resolved) {
-  const bool finished = std::filesystem::exists(session.folder / "summary.json");
-  if (session.options.overwrite) {
-    if (finished || !session.checkpoints.states().empty()) rehearse(session, resolved);
-    return;
-  }
-  const std::string folder = session.folder.path().string();
-  if (!session.checkpoints.states().empty())
-    throw InputError(
-        fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
-                    "away, or choose another folder",
-                    folder, session.resume_command()));
-  if (finished)
-    throw InputError(fmt::format(
-        "{} holds a finished run: --overwrite throws it away, or choose another folder with -o", folder));
-}
-
-/// Anything else would make it another run.
-void refuse_other_keys(const std::vector<std::string>& overrides) {
-  for (const std::string& text : overrides) {
-    const std::string key(trimmed(std::string_view(text).substr(0, text.find('='))));
-    const std::optional<Key> known = find_key(key);
-    if (!known || key.starts_with(kProbeTables) ||
-        !known->effects.only({Effect::duration, Effect::output, Effect::process, Effect::stop}))
-      throw InputError(
-          fmt::format("--set {}: a run that goes on may change motion.duration, output.* and "
-                      "stop.*; for other values start a run with them",
-                      text));
-  }
 }
 
 std::string listed(const std::vector<std::string>& sentences) {
@@ -305,6 +256,8 @@ Fork read_other(const RunOptions& options, const RunOrder& wanted) {
     throw InputError(
         fmt::format("--from {}: a fork needs a folder of its own; choose another one than {} with -o",
                     options.from, options.output.string()));
+  require_later_end(resolve_scene(fork.order.scene, fork.order.overrides).scene,
+                    resolve_with_later(fork.order).scene, &fork.content);
   return fork;
 }
 
@@ -317,9 +270,10 @@ void read_order(RunSession& session, const std::optional<CheckpointFolder::Found
                                  session.folder.path().string(), order.origin->folder));
   const std::vector<std::string>& now = session.options.overrides;
   refuse_other_keys(now);
-  resolve_order(order, session.folder.path());
+  const ResolvedScene made = resolve_order(order, session.folder.path());
   order.later.insert(order.later.end(), now.begin(), now.end());
   session.resolved = resolve_with_later(order);
+  require_later_end(made.scene, session.resolved.scene, found ? &found->content : nullptr);
 }
 
 /// "corrugation-d-20140512-093000", of a scene's file and the local time.
@@ -333,21 +287,13 @@ std::filesystem::path dated_folder(const std::filesystem::path& scene) {
 /// Threads and device of a run.
 void take_machine(const RunOptions& options) {
   use_threads(options.threads);
-  const std::shared_ptr<Ranks> ranks = chosen_ranks();
-  choose_device(options.device, ranks ? ranks->place_on_host() : 0);
+  if (const std::shared_ptr<Ranks> ranks = chosen_ranks())
+    choose_devices(*ranks, options.device);
+  else
+    choose_device(options.device);
 }
 
 }  // namespace
-
-void require_runnable(const Model& model) {
-  steady_traction(model);
-  const Scene& scene = model.scene;
-  if (!scene.motion || (!scene.output.disk_limit && !scene.forks)) return;
-  RunResults results;
-  results.dt = scene.motion->step_safety * step_limit(model).stable_step;
-  require_disk(model, results);
-  fork_step(model, results.dt);
-}
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
@@ -359,9 +305,9 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   std::optional<Fork> fork;
   if (!options.from.empty()) fork = read_other(options, wanted);
   RunSession session(options);
-  refuse_to_overwrite(session, resolved);
   session.order = fork ? fork->order : wanted;
   session.resolved = fork ? resolve_with_later(session.order) : resolved;
+  refuse_to_overwrite(session, fork ? &*fork : nullptr);
   session.checkpoints.clear();
   remove_results(session.folder.path());
   if (!fork) session.checkpoints.write_order(pack_order(session.order));

@@ -1,7 +1,6 @@
 #pragma once
 // `tread run` and `tread resume`: a scene from mesh to report.
 
-#include "drivers/engine/model.hpp"
 #include "drivers/run/run_options.hpp"
 #include "io/scene/scene_reader.hpp"
 
@@ -11,10 +10,6 @@ namespace tread {
 /// output directory. While it lasts, and where it ends before its time, status.json and checkpoint/ are
 /// there. Errors leave as Error; Interrupted where it can be resumed.
 void run_scene(const ResolvedScene& resolved, const RunOptions& options);
-
-/// Throws InputError for what a run of the model refuses although its mesh can be built, as far as that shows
-/// before the preload.
-void require_runnable(const Model& model);
 
 /// Goes on with the run in options.output from its last sound checkpoint; the files become those of a run
 /// that was never stopped. Says so where the run is finished. InputError where there is none.

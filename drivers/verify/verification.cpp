@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -135,12 +136,33 @@ std::string json_lines(const Outcome& outcome) {
   return lines;
 }
 
-void list_cases() {
-  for (const VerifyCase& c : verify_cases()) {
-    fmt::print("{} ({}): {}\n", c.name, c.group, c.summary);
-    for (const VerifyInput& input : c.inputs)
+/// Those of the names; without any, all.
+std::vector<const VerifyCase*> listed_cases(const std::vector<std::string>& names) {
+  if (!names.empty()) return chosen(names);
+  std::vector<const VerifyCase*> all;
+  for (const VerifyCase& c : verify_cases()) all.push_back(&c);
+  return all;
+}
+
+void list_cases(const std::vector<const VerifyCase*>& cases) {
+  for (const VerifyCase* c : cases) {
+    fmt::print("{} ({}): {}\n", c->name, c->group, c->summary);
+    for (const VerifyInput& input : c->inputs)
       fmt::print("    {} = {}    {}\n", input.name, shown(input), input.meaning);
   }
+}
+
+/// The same as one list.
+std::string list_json(const std::vector<const VerifyCase*>& cases) {
+  Json list = Json::array();
+  for (const VerifyCase* c : cases) {
+    Json one = {{"case", c->name}, {"group", c->group}, {"summary", c->summary}};
+    one["inputs"] = Json::array();
+    for (const VerifyInput& input : c->inputs)
+      one["inputs"].push_back({{"name", input.name}, {"value", shown(input)}, {"meaning", input.meaning}});
+    list.push_back(std::move(one));
+  }
+  return json_text(list);
 }
 
 /// Inputs that differ from the case's own, each after `lead`.
@@ -184,23 +206,45 @@ void write_page(const Outcome& outcome, const std::filesystem::path& directory) 
   write_text_file(directory / (name + ".md"), text);
 }
 
+bool passes(const Outcome& outcome) {
+  const std::vector<Finding>& findings = outcome.result.findings;
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.pass(); });
+}
+
 /// "[verify] 2 of 9 done, 1 failed  carter": cases so far, and the next one.
 std::string progress_line(const std::vector<Outcome>& outcomes, const std::vector<const VerifyCase*>& cases) {
   std::string line = fmt::format("[verify] {} of {} done", outcomes.size(), cases.size());
-  const auto failed = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) {
-    return std::any_of(outcome.result.findings.begin(), outcome.result.findings.end(),
-                       [](const Finding& finding) { return !finding.pass(); });
-  });
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
+                                    [](const Outcome& outcome) { return !passes(outcome); });
   if (failed > 0) line += fmt::format(", {} failed", failed);
   if (outcomes.size() < cases.size()) line += fmt::format("  {}", cases[outcomes.size()]->name);
   return line;
+}
+
+/// Runs the cases one after the other. `ended`: called with all outcomes after each.
+void run_cases(const std::vector<const VerifyCase*>& cases, const std::vector<VerifyInputs>& inputs,
+               const Progress& progress, std::vector<Outcome>& outcomes, const std::function<void()>& ended) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const double started = progress.seconds();
+    progress.say(progress_line(outcomes, cases));
+    CaseResult result = cases[i]->run(inputs[i], [&](const std::string& text) {
+      progress.say(fmt::format("[{}] {}", cases[i]->name, text));
+    });
+    outcomes.push_back({cases[i], inputs[i], std::move(result), progress.seconds() - started});
+    ended();
+  }
+  progress.say(progress_line(outcomes, cases));
 }
 
 }  // namespace
 
 bool verify(const VerifyOptions& options) {
   if (options.list) {
-    list_cases();
+    const std::vector<const VerifyCase*> cases = listed_cases(options.names);
+    if (options.json)
+      fmt::print("{}", list_json(cases));
+    else
+      list_cases(cases);
     return true;
   }
   use_threads(options.threads);
@@ -208,25 +252,25 @@ bool verify(const VerifyOptions& options) {
   const std::vector<const VerifyCase*> cases = chosen(options.names);
   const std::vector<VerifyInputs> inputs = inputs_of(cases, options.overrides);
   if (!options.output.empty()) make_directory(options.output);
-  Progress progress(options.quiet);
+  const Progress progress(options.quiet);
   std::vector<Outcome> outcomes;
-  bool passed = true;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const double started = progress.seconds();
-    progress.say(progress_line(outcomes, cases));
-    CaseResult result = cases[i]->run(inputs[i], [&](const std::string& text) {
-      progress.say(fmt::format("[{}] {}", cases[i]->name, text));
-    });
-    for (const Finding& f : result.findings) passed = passed && f.pass();
-    outcomes.push_back({cases[i], inputs[i], std::move(result), progress.seconds() - started});
+  const auto leave = [&] {
     if (!options.output.empty()) write_page(outcomes.back(), options.output);
-    if (!options.json) continue;
+    if (!options.json) return;
     fmt::print("{}", json_lines(outcomes.back()));
     std::fflush(stdout);
+  };
+  const auto print_table = [&] {
+    if (!options.json) fmt::print("{}", plain_text(table_of(outcomes)));
+  };
+  try {
+    run_cases(cases, inputs, progress, outcomes, leave);
+  } catch (...) {
+    if (!outcomes.empty()) print_table();
+    throw;
   }
-  progress.say(progress_line(outcomes, cases));
-  if (!options.json) fmt::print("{}", plain_text(table_of(outcomes)));
-  return passed;
+  print_table();
+  return std::all_of(outcomes.begin(), outcomes.end(), passes);
 }
 
 }  // namespace tread

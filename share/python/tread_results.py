@@ -100,8 +100,10 @@ class Run:
 
     def __init__(self, folder: str | Path, partial: bool = False) -> None:
         self.folder = _existing(folder)
-        if (self.folder / "sweep.csv").is_file() or "points" in _status(self.folder):
+        if (self.folder / "sweep.csv").is_file() or _command(self.folder) in ("sweep", "dial"):
             raise ResultError(f"{folder}: it holds a study; read it with Sweep('{folder}')")
+        if "points" in _status(self.folder):
+            raise ResultError(f"{folder}: {_other_study(self.folder)}")
         summary, checkpoint = self.folder / "summary.json", self.folder / "checkpoint"
         self._unfinished = not summary.is_file() or any(checkpoint.glob("*.h5"))  # as tread judges
         self.summary = {} if self._unfinished else _read_json(summary)
@@ -234,11 +236,17 @@ class Sweep:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = _existing(folder)
-        path, points = self.folder / "sweep.csv", _status(self.folder).get("points")
+        path = self.folder / "sweep.csv"
         if not path.is_file():
-            done = sum(point["state"] == "done" for point in points or [])
-            reason = (f"the study is not finished ({done} of {len(points)} points are done); wait or sweep again"
-                      if points else "it holds no study; give the folder of `tread sweep -o`")
+            status = _status(self.folder)
+            if _command(self.folder) in ("sweep", "dial"):
+                counts = [status.get(state, 0) for state in ("done", "failed", "interrupted", "running", "waiting")]
+                reason = (f"the study is not finished ({counts[0]} of {sum(counts)} points are done); wait or "
+                          f"{_command(self.folder)} again")
+            elif "points" in status:
+                reason = _other_study(self.folder)
+            else:
+                reason = "it holds no study; give the folder of `tread sweep -o`"
             raise ResultError(f"{path}: there is no such file: {reason}")
         table = _read_csv(path)
         self.names, self.states = table["point"].tolist(), table["state"].tolist()
@@ -327,6 +335,19 @@ def _existing(folder: str | Path) -> Path:
 def _status(folder: Path) -> dict[str, Any]:
     path = folder / "status.json"
     return _read_json(path) if path.is_file() else {}
+
+
+def _command(folder: Path) -> str:
+    """Command of a study, as "sweep", from its status.json; empty for a run."""
+    status = _status(folder)
+    return str(status.get("command", "sweep")) if "points" in status else ""
+
+
+def _other_study(folder: Path) -> str:
+    """Sentence on a folder of `tread develop` or `tread paper`, which leave no sweep.csv."""
+    runs = [path.name for path in sorted(folder.iterdir()) if (path / _SCENE).is_file()]
+    return (f"it holds results of `tread {_command(folder)}`, which are no table of points; read its files, or a "
+            f"run in it with Run('{folder / runs[-1] if runs else folder / 'RUN'}')")
 
 
 def _progress(folder: Path) -> str:

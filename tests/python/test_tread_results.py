@@ -255,6 +255,16 @@ class Studies(Test):
         self.refuses(lambda: Run(folder / "study"), folder / "study", "Sweep(")
         self.refuses(lambda: Sweep(folder / "out"), folder / "out", "no study", "tread sweep -o")
 
+    def test_development_is_no_study_with_points(self):
+        place = self.copy("study")
+        (place / "sweep.csv").unlink()
+        (place / "status.json").write_text('{"stage": "ended", "command": "develop", "done": 2, "waiting": 3, '
+                                           '"points": [{"name": "passage-0001", "state": "done"}]}')
+        for reader in (Run, Sweep):
+            self.refuses(lambda reader=reader: reader(place), place, "results of `tread develop`", "Run('")
+        (place / "status.json").write_text('{"command": "sweep", "done": 2, "waiting": 3, "points": []}')
+        self.refuses(lambda: Sweep(place), "2 of 5 points are done", "sweep again")
+
 
 class BrokenFolders(Test):
     def test_no_run(self):

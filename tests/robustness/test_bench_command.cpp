@@ -139,6 +139,11 @@ TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
   EXPECT_EQ(number(rows[4], "elements"), 2 * number(rows[3], "elements"));
 }
 
+TEST_F(Bench, ScalingRefusesWhatChangesASceneWithoutOne) {
+  for (const char* wrong : {"-q paper", "--precision single", "--set scene.quality=paper"})
+    EXPECT_EQ(call(fmt::format("scaling -t 1 --elements 2000 {} {}", kSmoke, wrong)), 2) << wrong;
+}
+
 TEST_F(Bench, HotspotsCoverTheWholeStep) {
   ASSERT_EQ(call(fmt::format("hotspots {}/scenes/tyre.toml -t 2 --quiet --steps 40 --set "
                              "\"scene.element_size=8 mm\" --set \"motion.duration=0.05 ms\" {}",

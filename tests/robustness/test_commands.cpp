@@ -15,6 +15,7 @@
 #include "drivers/process/version.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/results/patch_file.hpp"
+#include "io/text/json.hpp"
 #include "tests/commands_test.hpp"
 
 namespace tread {
@@ -301,6 +302,37 @@ TEST_F(Commands, VerifyRefusesWhatItDoesNotKnow) {
                             "verify hertz_sphere --set \"load=90 MN\"", "verify hertz_sphere --set radius"})
     EXPECT_EQ(call(wrong).code, 2) << wrong;
   EXPECT_TRUE(has(call("verify --list").out, "steady_rolling (standard): "));
+}
+
+TEST_F(Commands, VerifyListsTheNamedCases) {
+  const std::string one = call("verify --list steady_rolling").out;
+  EXPECT_TRUE(one.starts_with("steady_rolling (standard): ")) << one;
+  EXPECT_FALSE(has(one, "hertz_sphere")) << one;
+  EXPECT_EQ(call("verify --list hertz_spere").code, 2);
+  const std::string list = call("verify --list --json hertz_sphere").out;
+  const JsonRecord record = parse_json("{\"cases\": " + list + "}", "list");
+  EXPECT_EQ(text_in(record, "cases.0.case"), "hertz_sphere");
+  EXPECT_EQ(text_in(record, "cases.0.inputs.0.name"), "radius");
+  EXPECT_FALSE(record.contains("cases.1.case"));
+}
+
+TEST_F(Commands, VerifyShowsWhatIsDoneWhereACaseCannotRun) {
+  const Outcome outcome = call(
+      "verify hertz_sphere ring_modes -t 1 --quiet --set \"element_size=3.6 mm\" --set \"load=60 kN\" "
+      "--set \"thickness=1 mm\"");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.errors, "verify: thickness = 1 mm")) << outcome.errors;
+  EXPECT_TRUE(has(outcome.out, "hertz_sphere")) << outcome.out;
+}
+
+TEST_F(Commands, WrongWordsAreProblemsInJson) {
+  for (const char* wrong : {"check --json --nonsense", "check --json", "sweep --json x.toml --frm y"}) {
+    const Outcome outcome = call(wrong);
+    EXPECT_EQ(outcome.code, 2) << wrong;
+    EXPECT_TRUE(truth_in(parse_json(outcome.out, wrong), "ok") == false && has(outcome.out, "\"ok\": false"))
+        << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "--help` ")) << outcome.out;
+  }
 }
 
 TEST_F(Commands, DevicesAreChosenByName) {

@@ -77,6 +77,24 @@ TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
   EXPECT_EQ(number_in(read_json(whole / "passage-0002/summary.json"), "threads"), machine_cores());
 }
 
+/// Between two passages no point of the running study is left, and yet the development is not complete.
+TEST_F(Develop, ItsStatusCountsAllPassages) {
+  const JsonRecord ended = read_json(root_ / "whole/status.json");
+  EXPECT_EQ(number_in(ended, "done"), 3);
+  EXPECT_EQ(number_in(ended, "waiting"), 0);
+  const auto complete = [](const fs::path& folder) {
+    EXPECT_EQ(call(fmt::format("results {} --json", folder.string())), 0) << errors();
+    return truth_in(parse_json(output(), "results"), "complete");
+  };
+  EXPECT_TRUE(complete(root_ / "whole"));
+  // The first passage of three is stopped.
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear + "[stop]\nwall_time = \"1 ms\"\n")), 75);
+  const JsonRecord stopped = read_json(folder_ / "status.json");
+  EXPECT_EQ(number_in(stopped, "interrupted"), 1);
+  EXPECT_EQ(number_in(stopped, "waiting"), 2);
+  EXPECT_FALSE(complete(folder_));
+}
+
 TEST_F(Develop, RowsAcrossTheRailWearByThemselves) {
   const std::string fine = "--set \"scene.element_size=4 mm\"";
   const std::string rows = kCorrugation + kWear + "across = true\n";

@@ -84,6 +84,12 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   EXPECT_TRUE(has(program_.out(), "measured on \"Corrugation D, 300 km/h")) << program_.out();
   EXPECT_TRUE(has(program_.out(), "left out of the scene")) << program_.out();
 
+  // In JSON it is one list.
+  ASSERT_EQ(call(tyres(axes + " --json")), 0) << errors();
+  const JsonRecord list = parse_json("{\"rows\": " + program_.out() + "}", "list");
+  EXPECT_EQ(text_in(list, "rows.3.point"), "start=rigid");
+  EXPECT_EQ(list.count("rows.4.point"), 0U);
+
   // A finished run from elsewhere as the reference: nothing runs again.
   fs::rename(runs_ / "element_size=8mm", program_.folder / "fine");
   const std::string fewer = "--axis \"scene.element_size=12 mm\" --axis motion.start=rigid --reference ";

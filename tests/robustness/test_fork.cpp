@@ -161,6 +161,20 @@ TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
       "state forks.at");
 }
 
+TEST_F(Fork, RefusalsLeaveTheRunThatItWouldThrowAway) {
+  fs::copy(root_ / "sine", folder_, fs::copy_options::recursive);
+  const std::string over = "--overwrite --set ";
+  expect_refused(from("sine.toml", "sine", over + "\"corrugation.start=0.1 m\""), "the corrugations differ");
+  expect_refused(from("sine.toml", "smooth", over + "\"output.disk_limit=1 kB\""), "the run needs about");
+  expect_refused(from("sine.toml", "smooth", over + "\"motion.duration=2.3 ms\""),
+                 "motion.duration = 2.3 ms");
+  expect_refused(from("smooth.toml", "smooth", over + "\"motion.duration=0.1 ms\""), "has already come to");
+  for (const char* name : {"summary.json", "histories.csv", "status.json", "scene.resolved.toml"})
+    EXPECT_TRUE(fs::exists(folder_ / name) && content_of(folder_ / name) == content_of(root_ / "sine" / name))
+        << name;
+  EXPECT_TRUE(fs::exists(folder_ / "forks"));
+}
+
 /// Names of files that stay the same hide what changed in them.
 TEST_F(Fork, OtherContentsOfFilesAreRefusedByName) {
   const fs::path rail = root_ / "rail.txt";

@@ -45,7 +45,7 @@ class Frames : public testing::TestWithParam<const char*> {
     while (simulation_->steps() < kSteps) simulation_->step();
   }
 
-  FrameFiles files() { return {model_, folder_, 2 * kSteps, dt_}; }
+  FrameFiles files(std::int64_t reached = 2 * kSteps) { return {model_, folder_, 2 * kSteps, dt_, reached}; }
   fs::path frame(std::int64_t steps) const { return folder_ / fmt::format("frames/step-{:012}.hdf", steps); }
   std::string series() const { return read_text_file(folder_ / "frames.hdf.series", 1 << 20); }
   void leave_frame(FrameFiles& files) {
@@ -143,9 +143,29 @@ TEST_P(Frames, LieWholeInTheFolder) {
   EXPECT_FALSE(fs::exists(frame(7).string() + ".part"));
   EXPECT_EQ(series().find("000007"), std::string::npos);
   EXPECT_NE(series().find("000041"), std::string::npos);
-  EXPECT_FALSE(FrameFiles(model_, folder_, kSteps, dt_).due(kSteps));  // it is there
+  EXPECT_FALSE(FrameFiles(model_, folder_, kSteps, dt_, kSteps).due(kSteps));  // it is there
   FrameFiles::remove(folder_);
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+/// A run goes on from an older state, and ends earlier than it was to.
+TEST_P(Frames, BeyondTheStateAreWrittenAgainAndBeyondTheEndAreNone) {
+  FrameFiles out = files();
+  leave_frame(out);
+  const Steps due = frame_steps(5, 2 * kSteps);
+  ASSERT_EQ(due[2], kSteps);
+  const std::int64_t on_request = kSteps + 10;
+  for (const std::int64_t later : {on_request, due[3], due[4]}) fs::copy_file(frame(kSteps), frame(later));
+  EXPECT_FALSE(files().due(due[3]));
+  const FrameFiles again = files(kSteps);
+  EXPECT_EQ(again.count(), 2U);
+  EXPECT_TRUE(again.due(due[3]) && again.due(due[4]));
+  EXPECT_TRUE(fs::exists(frame(kSteps)) && fs::exists(frame(on_request)));
+  fs::copy_file(frame(kSteps), frame(due[4]));
+  const FrameFiles shorter(model_, folder_, due[3], dt_, 1);
+  EXPECT_FALSE(fs::exists(frame(due[4])));
+  EXPECT_EQ(series().find(fmt::format("{:012}", due[4])), std::string::npos) << series();
+  EXPECT_NE(series().find(fmt::format("{:012}", kSteps)), std::string::npos) << series();
 }
 
 TEST_P(Frames, TakeWhatWasProjected) {

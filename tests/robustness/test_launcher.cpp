@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -75,6 +76,28 @@ TEST_F(PointFolder, AnotherAttemptKeepsTheCheckpointUnlessTheRunItselfFailed) {
   EXPECT_TRUE(has(look_into(folder(), {}).why, "memory is short"));
   note_end(folder(), {{0, SIGTERM}});
   EXPECT_FALSE(has(look_into(folder(), {}).why, "memory is short"));
+}
+
+/// Processes append to log.txt; a launcher may end a run that says nothing itself.
+TEST_F(PointFolder, TheReasonIsTheLastErrorOfTheLastProcess) {
+  const std::string older = "[mesh] begins\ntread: the older error\n";
+  const auto reason = [&](const std::string& text) {
+    write("log.txt", older + text);
+    note_end(folder(), {{2, 0}, false, "", static_cast<std::int64_t>(older.size())});
+    return look_into(folder(), {}).why;
+  };
+  write("log.txt", older);
+  EXPECT_EQ(log_bytes(folder()), static_cast<std::int64_t>(older.size()));
+  EXPECT_EQ(reason(""), "exit 2: see log.txt in its folder");
+  EXPECT_EQ(reason("srun: error: no node\n"), "exit 2: see log.txt in its folder");
+  EXPECT_EQ(reason("tread: the newer error:\n  its second line\n"),
+            "exit 2: the newer error:   its second line");
+  EXPECT_EQ(reason("tread run: output is missing; `tread run --help` shows how\n"),
+            "exit 2: output is missing; `tread run --help` shows how");
+  EXPECT_EQ(reason("rank 1: tread: no memory\ntread: warning: 9 threads on 2 cores\n"), "exit 2: no memory");
+  EXPECT_EQ(reason("tread: warning: 9 threads on 2 cores\n"), "exit 2: see log.txt in its folder");
+  fs::remove(folder() / "log.txt");
+  EXPECT_EQ(log_bytes(folder()), 0);
 }
 
 class Launcher : public testing::Test {

@@ -15,6 +15,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "io/files/content_cache.hpp"
 #include "io/files/file_lock.hpp"
+#include "io/text/json.hpp"
 #include "tests/program_test.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -52,6 +53,12 @@ TEST_F(PreloadCache, LeavesTheBitsAlone) {
   ASSERT_EQ(call(run("second")), 0) << errors();
   EXPECT_TRUE(found()) << errors();
   EXPECT_TRUE(has(content_of(root_ / "second/summary.json"), "\"preload_cached\": true"));
+  // The cost of the scene is that of solving, not that of finding.
+  const auto cost = [&](const char* run) {
+    return number_in(read_json(root_ / run / "summary.json"), "preload_s");
+  };
+  EXPECT_GT(cost("first"), 0);
+  EXPECT_EQ(cost("second"), cost("first"));
   expect_same_run(root_ / "without", root_ / "first");
   expect_same_run(root_ / "without", root_ / "second");
 }

@@ -173,6 +173,8 @@ TEST_F(Resume, AFrameOnRequestStays) {
 
 TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  const std::string scene = content_of(folder_ / "scene.resolved.toml");
+  const std::string status = content_of(folder_ / "status.json");
   for (const char* wrong :
        {"contact.friction=0.3", "motion.speed=\"100 km/h\"", "scene.element_size=\"9 mm\"",
         "motion.duration=\"5 ms\"", "motion.duration=\"0.1 ms\"", "output.interval=1", "rail.present=false",
@@ -180,6 +182,8 @@ TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
     EXPECT_EQ(call(resume(fmt::format("--set {}", wrong))), 2) << wrong;
     const std::string key = wrong;
     EXPECT_TRUE(has(errors(), key.substr(0, key.find('=')))) << errors();
+    EXPECT_EQ(content_of(folder_ / "scene.resolved.toml"), scene) << wrong;
+    EXPECT_EQ(content_of(folder_ / "status.json"), status) << wrong;
   }
   EXPECT_EQ(call(resume("--set \"motion.duration=1 ms\" --set stop.steps=0")), 0) << errors();
   const std::string histories = content_of(folder_ / "histories.csv");

@@ -9,6 +9,7 @@
 
 #include "drivers/process/host.hpp"
 #include "drivers/process/version.hpp"
+#include "drivers/studies/study/study_plan.hpp"
 #include "io/text/json.hpp"
 #include "tests/program.hpp"
 
@@ -142,7 +143,8 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   const fs::path script = program_.folder / "array.sh";
   ASSERT_EQ(sweep(file, "--slurm " + script.string() + " --set 'output.progress_interval=2 ms'"), 0)
       << errors();
-  EXPECT_TRUE(has(content_of(script), "--set 'output.progress_interval=2 ms'` without"))
+  EXPECT_TRUE(has(content_of(script),
+                  fmt::format("-o {} --set 'output.progress_interval=2 ms'` collects", runs_.string())))
       << content_of(script);
   ASSERT_EQ(sweep(file, "-t 1 --slurm " + script.string()), 0) << errors();
   const std::string text = content_of(script);
@@ -183,6 +185,33 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_EQ(number_in(status(), "done"), 2);
   EXPECT_EQ(sweep(file, "--slurm " + script.string()), 2);
   EXPECT_TRUE(has(errors(), "--slurm: no point is left to run")) << errors();
+}
+
+/// The collecting command must not take up on the login node what has failed in the array.
+TEST_F(Sweep, JobArrayNotesFailures) {
+  const fs::path file = bars(
+      "[[point]]\nname = \"ends\"\nstop.steps = 3\npulse.velocity = \"1 m/s\"\n[[point]]\nname = "
+      "\"whole\"\npulse.velocity = \"2 m/s\"\n");
+  const fs::path script = program_.folder / "array.sh";
+  ASSERT_EQ(sweep(file, "--slurm=" + script.string()), 0) << errors();
+  EXPECT_TRUE(has(content_of(script), fmt::format("-o {}` collects", runs_.string()))) << content_of(script);
+  const auto element = [&](int number) {
+    const std::string command = fmt::format("SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={} exec bash {} >{} 2>&1",
+                                            number, script.string(), (program_.folder / "log").string());
+    return samples::wait_for(samples::child([&] {
+      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    }));
+  };
+  EXPECT_EQ(element(0), 4) << content_of(program_.folder / "log");
+  EXPECT_EQ(element(1), 0) << content_of(program_.folder / "log");
+  const JsonRecord failure = read_json(runs_ / "ends/failed.json");
+  EXPECT_EQ(number_in(failure, "exit"), 4);
+  EXPECT_EQ(truth_in(failure, "anew"), false);
+  EXPECT_EQ(sweep(file), 4) << errors();
+  EXPECT_FALSE(has(errors(), "[ends]")) << errors();
+  EXPECT_TRUE(has(errors(), "ends: exit 4: see the output of job 7, element 0")) << errors();
+  EXPECT_EQ(number_in(status(), "done"), 1);
 }
 
 TEST_F(Sweep, ListsCostWithoutRunning) {
@@ -273,6 +302,35 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
   fs::remove(first / "histories.csv");
   EXPECT_EQ(sweep(file), 2);
   EXPECT_TRUE(has(errors(), "remove " + first.string() + ", and start")) << errors();
+}
+
+/// A study that goes on has part of its files already.
+TEST(StudyDisk, FilesThatLieInThePointsFoldersAreNotNeededAgain) {
+  const samples::Program program;
+  StudyPlan plan;
+  plan.jobs = 1;
+  for (const char* name : {"one", "other"}) {
+    PlannedPoint point;
+    point.name = name;
+    point.folder = program.folder / name;
+    point.cost.emplace();
+    point.cost->disk.results = 1000;
+    point.cost->disk.frames = 500;
+    point.cost->disk.checkpoints = 300;
+    fs::create_directory(point.folder);
+    plan.points.push_back(std::move(point));
+  }
+  EXPECT_EQ(total_cost(plan).disk, 3300);
+  EXPECT_EQ(disk_still_needed(plan), 3300);
+  program.write("one/patch.h5", std::string(400, 'x'));
+  EXPECT_EQ(disk_still_needed(plan), 2900);
+  program.write("one/patch.h5", std::string(10000, 'x'));  // more than the run was thought to need
+  EXPECT_EQ(disk_still_needed(plan), 1800);
+  program.write("other/patch.h5", std::string(1700, 'x'));
+  EXPECT_EQ(disk_still_needed(plan), 100);
+  plan.points.back().cost.reset();  // done
+  EXPECT_EQ(disk_still_needed(plan), 0);
+  EXPECT_EQ(total_cost(plan).disk, 1800);
 }
 
 /// The paper's passages on a mesh that is fast rather than good, for an instant.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -180,6 +181,8 @@ TEST_F(Commands, ProfileShowsWritesAndMeets) {
   EXPECT_EQ(call("profile LMA --against CN60 --inclination steep").code, 2);
   for (const std::string option : {"--smoothing '0.1 mm'", "--shift '2 mm'", "--mirrored", "--section 60E1"})
     EXPECT_TRUE(has(call("profile S1002 --against 60E1 " + option).errors, "and none is given")) << option;
+  for (const std::string wrong : {"profile LMA --inclination steep", "profile CN60 --inclination 1:20"})
+    EXPECT_TRUE(has(call(wrong).errors, "--against names no other body")) << wrong;
   EXPECT_EQ(call(fmt::format("profile {} --wheel --mirrored", clean.string())).code, 2);
   EXPECT_EQ(call(fmt::format("profile {} --wheel --smoothing 1", clean.string())).code, 2);
 }

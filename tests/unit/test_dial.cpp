@@ -151,6 +151,7 @@ TEST(DialTable, OfAsCheapOnesThePlainestIsNamed) {
 }
 
 TEST(DialTable, LinesAreReadBack) {
+  EXPECT_EQ(dial_json({}), "[]\n");
   const DialTable read = parse_dial(dial_lines(table()), "t");
   EXPECT_EQ(read.scene, "made up");
   EXPECT_EQ(read.reference, "1mm");

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/math/spectrum.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/report/measurement_figures.hpp"
+#include "drivers/report/report_figures.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
@@ -113,6 +119,37 @@ TEST(Warnings, SamplesWhoseIntervalChanges) {
   EXPECT_TRUE(sample_intervals(samples, 0, 0.08).even(kStep));
   EXPECT_TRUE(force_spectrum(samples, 0, 1, kStep).square.empty());
   EXPECT_FALSE(force_spectrum(samples, 0, 0.08, kStep).square.empty());
+}
+
+/// A sine of 3 kN on a line has that amplitude, and 15 % less in the middle between two; its mean square
+/// stays.
+TEST(SpectrumFigure, ShowsTheAmplitudeOfASine) {
+  constexpr double kInterval = 1e-4;  // [s]
+  constexpr int kCount = 1000;        // 10 Hz between two lines
+  const auto largest = [](double frequency) {
+    std::vector<Sample> samples(kCount);
+    for (int i = 0; i < kCount; ++i) {
+      Sample& sample = samples[static_cast<std::size_t>(i)];
+      sample.time = kInterval * i;
+      sample.wheel_x = 50 * sample.time;
+      sample.vertical_force = 80e3 + 3e3 * std::sin(2 * std::numbers::pi * frequency * sample.time);
+    }
+    RunResults results;
+    results.spectrum = force_spectrum(samples, -1, 10, kInterval);
+    EXPECT_NEAR(band_power(results.spectrum.square, results.spectrum.spacing, 500, 1500), 4.5e6, 0.02e6);
+    const std::vector<double> shown = spectrum_figure(results).panels.front().series.front().y;
+    return *std::max_element(shown.begin(), shown.end());
+  };
+  EXPECT_NEAR(largest(1000), 3, 0.01);
+  EXPECT_NEAR(largest(1005), 0.85 * 3, 0.02);
+}
+
+TEST(ForceFigure, NamesTheCoefficientOfFriction) {
+  const Model model(samples::tyre_scene({"scene.element_size=12 mm", "contact.friction=0.299"}));
+  RunResults results;
+  results.samples = rolling(kForce, 0.0027);
+  const std::string caption = force_figure(model, results).caption;
+  EXPECT_NE(caption.find("f = 0.299."), std::string::npos) << caption;
 }
 
 TEST(Warnings, NameTheDampingWhoseLossNoEnergyCounts) {

@@ -133,7 +133,10 @@ void print(const DialOutcome& outcome) {
 
 void leave_results(const DialOptions& options, const DialDesign& design, const StudyPlan& plan) {
   const DialOutcome outcome = evaluate(options, design, plan);
-  if (outcome.runs.empty()) return;
+  if (outcome.runs.empty()) {
+    if (options.common.json) fmt::print("{}", dial_json({}));
+    return;
+  }
   const std::filesystem::path& folder = plan.folder;
   write_text_file(folder / "sweep.csv", sweep_csv(plan, finished_runs(plan)));
   write_text_file(folder / "dial.csv", dial_csv(outcome.table));
@@ -142,7 +145,7 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
   if (!outcome.effects.rows.empty()) write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
   write_report(folder / "report.html", dial_report(outcome, plan, options.common.origin));
   if (options.common.json)
-    fmt::print("{}", dial_lines(outcome.table));
+    fmt::print("{}", dial_json(outcome.table));
   else
     print(outcome);
 }

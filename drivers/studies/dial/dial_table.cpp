@@ -81,6 +81,21 @@ DialRow row_of(const JsonRecord& record, const std::string& name) {
   return row;
 }
 
+Json row_json(const DialTable& table, const DialRow& row) {
+  Json json = {
+      {"scene", table.scene},     {"reference", table.reference},
+      {"point", row.point},       {"settings", fmt::format("{}", fmt::join(row.settings, kSeparator))},
+      {"elements", row.elements}, {"steps", row.steps},
+      {"minutes", row.minutes}};
+  for (const auto& [name, difference] : row.differences) {
+    json[name + "_error"] = difference.error;
+    json[name + "_mean"] = difference.mean;
+    if (difference.range) json[name + "_range"] = *difference.range;
+    if (difference.shift) json[name + "_shift_m"] = *difference.shift;
+  }
+  return json;
+}
+
 std::string optional_cell(const std::optional<double>& value) {
   return value ? fmt::format(",{:.4g}", *value) : ",";
 }
@@ -173,21 +188,14 @@ std::string dial_csv(const DialTable& table) {
 
 std::string dial_lines(const DialTable& table) {
   std::string text;
-  for (const DialRow& row : table.rows) {
-    Json json = {
-        {"scene", table.scene},     {"reference", table.reference},
-        {"point", row.point},       {"settings", fmt::format("{}", fmt::join(row.settings, kSeparator))},
-        {"elements", row.elements}, {"steps", row.steps},
-        {"minutes", row.minutes}};
-    for (const auto& [name, difference] : row.differences) {
-      json[name + "_error"] = difference.error;
-      json[name + "_mean"] = difference.mean;
-      if (difference.range) json[name + "_range"] = *difference.range;
-      if (difference.shift) json[name + "_shift_m"] = *difference.shift;
-    }
-    text += json_line(json);
-  }
+  for (const DialRow& row : table.rows) text += json_line(row_json(table, row));
   return text;
+}
+
+std::string dial_json(const DialTable& table) {
+  Json list = Json::array();
+  for (const DialRow& row : table.rows) list.push_back(row_json(table, row));
+  return json_text(list);
 }
 
 DialTable parse_dial(const std::string& text, const std::string& name) {

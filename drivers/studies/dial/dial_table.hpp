@@ -63,6 +63,9 @@ std::string dial_csv(const DialTable& table);
 /// The table as flat JSON objects, one a line, which parse_dial() reads.
 std::string dial_lines(const DialTable& table);
 
+/// The same objects as one list; empty without rows.
+std::string dial_json(const DialTable& table);
+
 /// Messages call the text `name`. InputError where it is not such a table.
 DialTable parse_dial(const std::string& text, const std::string& name);
 

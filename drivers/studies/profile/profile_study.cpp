@@ -193,10 +193,20 @@ void require_what_options_change(const ProfileOptions& options, const std::vecto
   require(options.section != usual.section, "--section", "rail's file", true);
 }
 
+/// InputError for an inclination where nothing touches the rail.
+void require_contact_of(const ProfileOptions& options) {
+  if (options.against.empty() && options.inclination != ProfileOptions().inclination)
+    throw InputError(
+        fmt::format("--inclination {}: it turns the rail under a wheel, and --against names no other body; "
+                    "state that, or leave the inclination out",
+                    options.inclination));
+}
+
 }  // namespace
 
 void profile(const ProfileOptions& options) {
   if (options.wheel && options.rail) throw InputError("--wheel and --rail: a file holds one of them");
+  require_contact_of(options);
   const std::optional<bool> stated =
       options.wheel || options.rail ? std::optional(options.wheel) : std::nullopt;
   const ShownProfile shown = shown_profile(options.file, stated, options);

@@ -31,6 +31,14 @@ std::string element(const StudyPlan& plan, const PlannedPoint& point, std::size_
                      shell_words(place_arguments(plan, plan.threads)), anew ? 1 : 0);
 }
 
+/// The command line without --slurm and its file.
+std::string without_slurm(std::string command, const std::string& script) {
+  for (const std::string& words : {" --slurm " + shell_word(script), " " + shell_word("--slurm=" + script)})
+    if (const std::size_t at = command.find(words); at != std::string::npos)
+      return command.erase(at, words.size());
+  return command;
+}
+
 }  // namespace
 
 void write_job_array(const StudyPlan& plan, const std::filesystem::path& script, bool retry,
@@ -43,7 +51,7 @@ void write_job_array(const StudyPlan& plan, const std::filesystem::path& script,
   const std::string text = fmt::format(
       R"(#!/bin/bash
 # Job array of {title}: sbatch {script}. State partition, cores, memory and time by options of sbatch.
-# Then `{command}` without --slurm collects the results.
+# Then `{command}` collects the results.
 #SBATCH --array=0-{last}
 #SBATCH --open-mode=append
 #SBATCH --requeue
@@ -51,9 +59,10 @@ tread={program}
 case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
 {elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
 esac
-if ((anew)) && [[ -e $folder/failed.json ]]; then
-  : # queued again, it goes on
-elif [[ -d $folder/checkpoint || -e $folder/summary.json ]]; then # of a finished run it says so
+if ((anew)) && grep -qs '"exit": [23],' "$folder/failed.json"; then
+  : # it would come to the same end; queued again, it goes on
+elif ls "$folder"/checkpoint/*.h5 >/dev/null 2>&1 || [[ -e $folder/summary.json ]]; then
+  # of a finished run it says so
   words=(resume "$folder" "${{place[@]}}")
 fi
 rm -f "$folder/failed.json"
@@ -64,14 +73,24 @@ while :; do
   wait $run; code=$?
   kill -0 $run 2>/dev/null || break
 done
-if ((code == 75)); then
-  scontrol requeue "$SLURM_JOB_ID"
-fi
+case $code in
+0 | 124 | 129 | 130 | 143) ;; # done, or a stop of Slurm's
+75) scontrol requeue "$SLURM_JOB_ID" ;;
+*)
+  signal=0 exit=$code anew=false why="exit $code"
+  if ((code > 128)); then signal=$((code - 128)) exit=0 why="signal $((code - 128)) ended it"; fi
+  if ((code == 2 || code == 3)); then anew=true; fi
+  why+=": see the output of job $SLURM_JOB_ID, element $SLURM_ARRAY_TASK_ID"
+  mkdir -p "$folder"
+  printf '{{\n  "exit": %d,\n  "signal": %d,\n  "why": "%s",\n  "anew": %s\n}}\n' \
+    $exit $signal "$why" $anew >"$folder/failed.json"
+  ;;
+esac
 exit $code
 )",
-      fmt::arg("title", plan.study.name), fmt::arg("script", script.string()), fmt::arg("command", command),
-      fmt::arg("last", count - 1), fmt::arg("program", shell_word(own_program().string())),
-      fmt::arg("elements", elements));
+      fmt::arg("title", plan.study.name), fmt::arg("script", script.string()),
+      fmt::arg("command", without_slurm(command, script.string())), fmt::arg("last", count - 1),
+      fmt::arg("program", shell_word(own_program().string())), fmt::arg("elements", elements));
   write_named_text(script, text);
 }
 

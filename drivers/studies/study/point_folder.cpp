@@ -9,7 +9,11 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "drivers/engine/sections.hpp"
 #include "drivers/process/machine.hpp"
@@ -26,18 +30,50 @@ namespace {
 
 constexpr const char* kFailure = "failed.json";
 
-/// The last words of the last process.
-std::string last_words(const fs::path& log) {
+/// The end of a log, at most 4000 B from `first` [B] on.
+std::string end_of_log(const fs::path& log, std::int64_t first) {
   constexpr std::streamoff kEnd = 4000;  // [B]
   std::ifstream stream(log, std::ios::binary | std::ios::ate);
   if (!stream) return "";
   const std::streamoff size = stream.tellg();
-  stream.seekg(std::max<std::streamoff>(0, size - kEnd));
-  std::string text(static_cast<std::size_t>(std::min(size, kEnd)), '\0');
+  const std::streamoff begin = std::max({std::streamoff{0}, size - kEnd, static_cast<std::streamoff>(first)});
+  if (begin >= size) return "";
+  stream.seekg(begin);
+  std::string text(static_cast<std::size_t>(size - begin), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  const auto begin = text.rfind("tread: ");
-  if (begin == std::string::npos) return "";
-  text.erase(0, begin + std::strlen("tread: "));
+  return text;
+}
+
+bool is_warning(const std::string& line) {
+  return line.find("warning: ") != std::string::npos;
+}
+
+/// The error in a line, behind "tread: " or the command, "tread run: "; nothing in other lines.
+std::optional<std::string> error_in(const std::string& line) {
+  constexpr std::string_view kName = "tread";
+  constexpr std::ptrdiff_t kWords = 2;  // of a command
+  if (is_warning(line)) return std::nullopt;
+  for (std::size_t at = line.find(kName); at != std::string::npos; at = line.find(kName, at + 1)) {
+    const std::size_t words = at + kName.size();
+    const std::size_t end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz- ", words);
+    if (end == std::string::npos || line.compare(end, 2, ": ") != 0) continue;
+    if ((at > 0 && line[at - 1] != ' ') || (end > words && line[words] != ' ')) continue;
+    const std::string_view between = std::string_view(line).substr(words, end - words);
+    if (std::count(between.begin(), between.end(), ' ') <= kWords) return line.substr(end + 2);
+  }
+  return std::nullopt;
+}
+
+/// The last error that a process has written behind the first bytes of the log, with the lines that follow.
+std::string last_words(const fs::path& log, std::int64_t first) {
+  std::istringstream lines(end_of_log(log, first));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::optional<std::string> error = error_in(line))
+      text = std::move(*error);
+    else if (!text.empty() && !is_warning(line))
+      text += " " + line;
+  }
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   text.erase(text.find_last_not_of(' ') + 1);
@@ -76,11 +112,12 @@ std::string stage_in(const std::string& status) {
   }
 }
 
-std::string reason(const fs::path& folder, const ProcessEnd& end) {
+std::string reason(const fs::path& folder, const PointProcess& process) {
+  const ProcessEnd& end = process.end;
   if (end.signal != 0)
     return fmt::format("signal {} ({}) ended it{}", end.signal, ::strsignal(end.signal),
                        end.signal == SIGKILL ? "; the system ends processes when memory is short" : "");
-  const std::string words = last_words(log_of(folder));
+  const std::string words = last_words(log_of(folder), process.log_before);
   return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
 }
 
@@ -179,7 +216,7 @@ void note_end(const fs::path& folder, const PointProcess& process) {
     fs::remove(folder / kFailure, ignored);
     return;
   }
-  write_failure(folder, end, reason(folder, end));
+  write_failure(folder, end, reason(folder, process));
 }
 
 void note_failure(const fs::path& folder, ExitCode code, const std::string& why) {
@@ -189,6 +226,12 @@ void note_failure(const fs::path& folder, ExitCode code, const std::string& why)
 
 fs::path log_of(const fs::path& folder) {
   return folder / "log.txt";
+}
+
+std::int64_t log_bytes(const fs::path& folder) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(log_of(folder), error);
+  return error ? 0 : static_cast<std::int64_t>(bytes);
 }
 
 }  // namespace tread

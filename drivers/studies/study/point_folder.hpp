@@ -1,6 +1,7 @@
 #pragma once
 // The folder of one run of a study: its content and the work left to do.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ struct PointProcess {
   ProcessEnd end;
   bool told_to_stop = false;       ///< true if the study itself was being stopped
   std::string status_before = {};  ///< shown_status() at its start
+  std::int64_t log_before = 0;     ///< log_bytes() at its start [B]
 };
 
 /// Returns true if the run was stopped and can go on: by the process's end or, whatever a launcher made of
@@ -56,7 +58,9 @@ void note_end(const std::filesystem::path& folder, const PointProcess& process);
 /// Keeps the reason of a failure before the start. Throws ResourceError.
 void note_failure(const std::filesystem::path& folder, ExitCode code, const std::string& why);
 
-/// Path of the output of the folder's processes.
+/// Path of the output of the folder's processes, each of which appends to it.
 std::filesystem::path log_of(const std::filesystem::path& folder);
+/// Size of that file; 0: there is none [B].
+std::int64_t log_bytes(const std::filesystem::path& folder);
 
 }  // namespace tread

@@ -134,14 +134,15 @@ std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
   return json_text(json);
 }
 
-void require_disk(const StudyPlan& plan, const StudyCost& cost) {
+void require_disk(const StudyPlan& plan) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(plan.folder, error);
-  if (error || static_cast<std::uintmax_t>(cost.disk) <= space.available) return;
+  const std::int64_t needed = disk_still_needed(plan);
+  if (error || static_cast<std::uintmax_t>(needed) <= space.available) return;
   throw ResourceError(fmt::format(
-      "the study needs about {}, the disk of {} has {} left; free some or choose "
+      "the study needs about {} more, the disk of {} has {} left; free some or choose "
       "another folder with -o",
-      bytes_text(cost.disk), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
+      bytes_text(needed), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
 }
 
 /// Writes the scene of a study that brings its own.
@@ -240,7 +241,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                   : plain_text(plan_table(plan)) + "\n" + cost_text(plan, cost) + "\n");
     return std::nullopt;
   }
-  require_disk(plan, cost);
+  require_disk(plan);
   leave_scene(study);
   if (!options.slurm.empty()) {
     write_job_array(plan, options.slurm, options.retry, options.origin.command);

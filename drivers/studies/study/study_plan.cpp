@@ -16,6 +16,7 @@
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
+#include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "io/report/plain_text.hpp"
@@ -159,6 +160,31 @@ void subtract_shared(StudyPlan& plan) {
   }
 }
 
+/// Sum of the values of the largest runs at once.
+std::int64_t sum_at_once(const StudyPlan& plan, std::vector<std::int64_t> values) {
+  std::sort(values.rbegin(), values.rend());
+  const auto count = std::min(values.size(), static_cast<std::size_t>(plan.jobs));
+  return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
+                         std::int64_t{0});
+}
+
+/// Size of the results of all runs and of the checkpoints of the runs at once, without what `there` says to
+/// lie in a point's folder already [B].
+std::int64_t disk_need(const StudyPlan& plan, const std::function<std::int64_t(const PlannedPoint&)>& there) {
+  std::int64_t sum = 0;
+  std::vector<std::int64_t> checkpoints;
+  for (const PlannedPoint& point : plan.points) {
+    if (!point.cost) continue;
+    const std::int64_t files = point.cost->disk.results + point.cost->disk.frames;
+    const std::int64_t found = there(point);
+    sum += files - std::min(found, files);
+    const std::int64_t beyond =
+        std::min(std::max<std::int64_t>(0, found - files), point.cost->disk.checkpoints);
+    checkpoints.push_back(point.cost->disk.checkpoints - beyond);
+  }
+  return sum + sum_at_once(plan, std::move(checkpoints));
+}
+
 }  // namespace
 
 ExitCode StudyPlan::failure_code() const {
@@ -246,27 +272,22 @@ StudyCost total_cost(const StudyPlan& plan) {
   StudyCost cost;
   double longest = 0;
   std::vector<std::int64_t> memory;
-  std::vector<std::int64_t> checkpoints;
   for (const PlannedPoint& point : plan.points) {
     if (!point.cost) continue;
     cost.seconds += point.cost->seconds();
     cost.saved += point.saved_seconds;
     longest = std::max(longest, begins_with_state(plan, point) ? point.cost->seconds() + point.saved_seconds
                                                                : point.cost->seconds());
-    cost.disk += point.cost->disk.results + point.cost->disk.frames;
     memory.push_back(point.cost->memory);
-    checkpoints.push_back(point.cost->disk.checkpoints);
   }
-  const auto of_the_largest = [&](std::vector<std::int64_t>& values) {
-    std::sort(values.rbegin(), values.rend());
-    const auto count = std::min(values.size(), static_cast<std::size_t>(plan.jobs));
-    return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
-                           std::int64_t{0});
-  };
   cost.wall = plan.threads > 0 ? std::max(longest, cost.seconds / plan.jobs) : cost.seconds / machine_cores();
-  cost.disk += of_the_largest(checkpoints);
-  cost.memory = of_the_largest(memory);
+  cost.disk = disk_need(plan, [](const PlannedPoint&) { return std::int64_t{0}; });
+  cost.memory = sum_at_once(plan, std::move(memory));
   return cost;
+}
+
+std::int64_t disk_still_needed(const StudyPlan& plan) {
+  return disk_need(plan, [](const PlannedPoint& point) { return folder_bytes(point.folder); });
 }
 
 Table plan_table(const StudyPlan& plan) {

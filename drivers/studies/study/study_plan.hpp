@@ -35,6 +35,10 @@ struct StudyCost {
 };
 StudyCost total_cost(const StudyPlan& plan);
 
+/// StudyCost::disk without the files that lie in the folders of these points already, and that their runs go
+/// on with or replace [B].
+std::int64_t disk_still_needed(const StudyPlan& plan);
+
 /// Table with the columns point, state, elements, steps, time, disk, and the beginning if rolling is shared.
 Table plan_table(const StudyPlan& plan);
 

@@ -139,9 +139,10 @@ void StudyRunner::start(PlannedPoint& point, int threads) {
   const std::vector<std::string> arguments =
       point_arguments(*plan_, point, plan_->launcher.empty() ? threads : plan_->threads, card);
   std::string before = shown_status(point.folder);
+  const std::int64_t log_before = log_bytes(point.folder);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
   running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads, card,
-                      progress_->seconds(), std::move(before)});
+                      progress_->seconds(), std::move(before), log_before});
   point.status = {PointState::running, ""};
 }
 
@@ -167,7 +168,7 @@ bool StudyRunner::is_being_stopped() const {
 
 void StudyRunner::note_ended(const Running& running) {
   PlannedPoint& point = *running.point;
-  note_end(point.folder, {*running.end, is_being_stopped(), running.status_before});
+  note_end(point.folder, {*running.end, is_being_stopped(), running.status_before, running.log_before});
   if (!plan_->launcher.empty()) withdraw_request(point.folder);
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign)
@@ -281,8 +282,12 @@ void StudyRunner::show() {
   Json json = {
       {"stage", running_.empty() ? "ended" : "sweep"}, {"command", label_.command}, {"process", ::getpid()}};
   for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
-                                 PointState::done, PointState::failed})
-    json[name_of(state)] = count(plan, state);
+                                 PointState::done, PointState::failed}) {
+    const int others = state == PointState::done      ? label_.before
+                       : state == PointState::waiting ? label_.after
+                                                      : 0;
+    json[name_of(state)] = others + count(plan, state);
+  }
   json["left_s"] = left;
   json["points"] = Json::array();
   for (const PlannedPoint& point : plan.points) {

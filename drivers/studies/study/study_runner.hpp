@@ -1,6 +1,7 @@
 #pragma once
 // The runs of a study as child processes, as many at once as the plan allows.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ class StudyRunner {
     int card;                            ///< StudyPlan::cards; -1: none of its own
     double started;                      ///< start on the clock of the progress [s]
     std::string status_before;           ///< PointProcess::status_before
+    std::int64_t log_before;             ///< PointProcess::log_before [B]
     std::optional<ProcessEnd> end = {};  ///< end of a process whose run may go on elsewhere
     bool asked = false;                  ///< true once the folder has the request to stop
   };
