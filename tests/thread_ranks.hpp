@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <barrier>
 #include <condition_variable>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <functional>

@@ -15,11 +15,14 @@ namespace tread {
 
 namespace {
 
-/// Keys that bring a point of a fastening onto the line of this name, for messages.
-std::string_view keys_across(const std::string& path) {
+/// Keys that bring a point of a fastening onto the line of this name of the block, for messages.
+std::string_view keys_across(const std::string& block, const std::string& path) {
   if (path == "foot") return "; state a smaller fastenings.pad_width";
-  if (path == "top")
+  if (path != "top") return "";
+  if (block == "slab")
     return "; state a smaller fastenings.pad_width, a larger slab.width or another slab.offset";
+  if (block.starts_with("sleeper "))
+    return "; state a smaller fastenings.pad_width, a larger sleepers.length or another sleepers.offset";
   return "";
 }
 
@@ -31,7 +34,7 @@ Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes
   if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
     throw InputError(
         fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m){}", y,
-                    path, block.name, p(0), p(nodes.size() - 1), keys_across(path)));
+                    path, block.name, p(0), p(nodes.size() - 1), keys_across(block.name, path)));
   std::size_t i = 0;
   while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
   const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);

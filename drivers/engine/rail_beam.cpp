@@ -1,5 +1,6 @@
 #include "drivers/engine/rail_beam.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -11,7 +12,11 @@ BeamSection rail_beam_section(const Scene& scene) {
   if (!scene.rail) throw InputError("a beam section needs [rail]");
   Scene upright = scene;
   upright.quality = "draft";
-  upright.element_size = 1.1e-3;
+  // Warping takes memory and time that grow fast with the quads; a large box needs no finer ones.
+  constexpr double kElement = 1.1e-3, kAcross = 60;
+  const RailSpec& rail = *scene.rail;
+  upright.element_size =
+      rail.profile == "box" ? std::max(kElement, std::min(rail.width, rail.height) / kAcross) : kElement;
   upright.rail->inclination = 0;
   const MeshSizes sizes = mesh_sizes(upright);
   const double nu = scene.rail_material().poissons_ratio;

@@ -73,6 +73,11 @@ class RankCut {
   const std::vector<std::size_t>& before(int rank) const { return before_[index(rank)]; }
   /// First group of a tile, and after the last one the number of groups.
   std::int64_t first_group(std::size_t tile) const { return first_group_[tile]; }
+  /// Calls visit(first, last) for the groups [first, last) of each stretch.
+  template <class Visit>
+  void for_groups(const std::vector<TileStretch>& stretches, const Visit& visit) const {
+    for (const TileStretch& stretch : stretches) visit(first_group(stretch.first), first_group(stretch.last));
+  }
 
  private:
   void deal_out(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares);

@@ -34,9 +34,9 @@ RankDeviceFields<Real, U>::RankDeviceFields(const Model& model, std::shared_ptr<
   // The patch is anywhere on both surfaces as yet: there are never more of the host's groups than now.
   std::size_t most = 0;
   for (const auto* stretches : {&this->own_stretches(), &this->halo()})
-    for (const TileStretch& stretch : *stretches)
-      most += index(std::count(this->deferred().begin() + this->cut().first_group(stretch.first),
-                               this->deferred().begin() + this->cut().first_group(stretch.last), 1));
+    this->cut().for_groups(*stretches, [&](std::int64_t first, std::int64_t last) {
+      most += index(std::count(this->deferred().begin() + first, this->deferred().begin() + last, 1));
+    });
   packed_f_ = HostArray<Real>(*device_, most * kGroupValues);
   device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
   sent_ = SentGroups<Real, U>(*device_, {}, most, mark_.size());
@@ -67,20 +67,18 @@ template <class Real, class U>
 void RankDeviceFields<Real, U>::patch_chosen() {
   forced_.clear();
   sent_.reset();
-  const auto for_groups_of = [this](const std::vector<TileStretch>& stretches, const auto& visit) {
-    for (const TileStretch& stretch : stretches)
-      for (std::int64_t group = this->cut().first_group(stretch.first);
-           group < this->cut().first_group(stretch.last); ++group)
-        visit(group);
-  };
-  for_groups_of(this->own_stretches(), [this](std::int64_t group) {
-    mark_[index(group)] = held_mark_[index(group)];
-    if (this->deferred()[index(group)] == 0) return;
-    mark_[index(group)] = static_cast<int>(forced_.size());
-    forced_.push_back(group);
-    sent_.add(group);
+  this->cut().for_groups(this->own_stretches(), [this](std::int64_t first, std::int64_t last) {
+    for (std::int64_t group = first; group < last; ++group) {
+      mark_[index(group)] = held_mark_[index(group)];
+      if (this->deferred()[index(group)] == 0) continue;
+      mark_[index(group)] = static_cast<int>(forced_.size());
+      forced_.push_back(group);
+      sent_.add(group);
+    }
   });
-  for_groups_of(this->halo(), [this](std::int64_t group) { sent_.add(group); });
+  this->cut().for_groups(this->halo(), [this](std::int64_t first, std::int64_t last) {
+    for (std::int64_t group = first; group < last; ++group) sent_.add(group);
+  });
   device_mark_.upload(mark_.data());
 }
 
@@ -159,12 +157,11 @@ void RankDeviceFields<Real, U>::advance_device_lag() {
     if (!this->q()->branch(b)) continue;
     const SweptBlock& block = this->mesh().blocks[index(b)];
     for (const auto* stretches : {&this->own_stretches(), &this->halo()})
-      for (const TileStretch& stretch : *stretches) {
-        const std::int64_t first = std::max(block.base, this->cut().first_group(stretch.first) * kLanes);
-        const std::int64_t last =
-            std::min(block.base + block.slots(), this->cut().first_group(stretch.last) * kLanes);
-        if (first < last) arrays_.advance_lag(b, lag_step_, first, last);
-      }
+      this->cut().for_groups(*stretches, [&](std::int64_t first, std::int64_t last) {
+        const std::int64_t from = std::max(block.base, first * kLanes);
+        const std::int64_t to = std::min(block.base + block.slots(), last * kLanes);
+        if (from < to) arrays_.advance_lag(b, lag_step_, from, to);
+      });
   }
   lag_step_ = 0;
 }
@@ -193,12 +190,10 @@ void RankDeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads, 
     std::swap(arrays_.now.state, arrays_.next.state);
     host_whole_ = false;
     come_home();
-    for (const TileStretch& stretch : this->own_stretches()) {
-      const std::int64_t first = this->cut().first_group(stretch.first) * kGroupValues;
-      const std::int64_t last = this->cut().first_group(stretch.last) * kGroupValues;
-      copy(Way::to_host, arrays_.force().data() + first, this->f().data() + first,
-           index(last - first) * sizeof(Real));
-    }
+    this->cut().for_groups(this->own_stretches(), [this](std::int64_t first, std::int64_t last) {
+      copy(Way::to_host, arrays_.force().data() + first * kGroupValues,
+           this->f().data() + first * kGroupValues, index(last - first) * kGroupValues * sizeof(Real));
+    });
     changed();
   } else {
     march(loads, device_mark_);
@@ -223,9 +218,9 @@ template <class Real, class U>
 void RankDeviceFields<Real, U>::spoil_device() {
   AlignedVector<U> no_u(arrays_.now.u.size(), std::numeric_limits<U>::quiet_NaN());
   for (const auto* stretches : {&this->own_stretches(), &this->halo()})
-    for (const TileStretch& stretch : *stretches)
-      std::fill(no_u.begin() + this->cut().first_group(stretch.first) * kGroupValues,
-                no_u.begin() + this->cut().first_group(stretch.last) * kGroupValues, U{0});
+    this->cut().for_groups(*stretches, [&](std::int64_t first, std::int64_t last) {
+      std::fill(no_u.begin() + first * kGroupValues, no_u.begin() + last * kGroupValues, U{0});
+    });
   const AlignedVector<Real> no_v(no_u.begin(), no_u.end());
   for (auto* motion : {&arrays_.now, &arrays_.next}) {
     motion->u.upload(no_u.data());
@@ -236,15 +231,15 @@ void RankDeviceFields<Real, U>::spoil_device() {
 /// Whoever reads what is not fetched is found out.
 template <class Real, class U>
 void RankDeviceFields<Real, U>::spoil_host() {
-  for (const TileStretch& stretch : this->own_stretches())
-    for (std::int64_t group = this->cut().first_group(stretch.first);
-         group < this->cut().first_group(stretch.last); ++group) {
+  this->cut().for_groups(this->own_stretches(), [this](std::int64_t first, std::int64_t last) {
+    for (std::int64_t group = first; group < last; ++group) {
       if (this->deferred()[index(group)] != 0) continue;
       const std::int64_t place = group * kGroupValues;
       std::fill_n(this->f().data() + place, kGroupValues, std::numeric_limits<Real>::quiet_NaN());
       std::fill_n(this->u().data() + place, kGroupValues, std::numeric_limits<U>::quiet_NaN());
       std::fill_n(this->v().data() + place, kGroupValues, std::numeric_limits<Real>::quiet_NaN());
     }
+  });
 }
 
 template class RankDeviceFields<double, double>;

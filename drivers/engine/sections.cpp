@@ -84,7 +84,8 @@ Bands bands_of(const Scene& scene) {
   // One band for all places that are near: offsets of some mm then have the same mesh.
   const auto band = [&](double common, double touching_place) {
     const double beside = place.y - common;
-    return beside >= -10e-3 && beside <= 8e-3 ? common : touching_place;
+    const double least = box || tyre ? -8e-3 : -10e-3;
+    return beside >= least && beside <= 8e-3 ? common : touching_place;
   };
   Bands bands{place.on_rail.x, place.y};
   if (box || (rail.profile == "CN60" && (tyre || wheel.profile == "LMA")))

@@ -16,7 +16,8 @@ struct HeldGroups {
   GroupMarks moved;  ///< whose nodes it moves: one lane at stations where another rank's tile begins
   GroupMarks
       forced;  ///< of which it needs the forces in all lanes, to move them or nodes to which they are tied
-  GroupMarks deferred;  ///< of those that it moves, the ones that wait for forces of others
+  GroupMarks
+      deferred;  ///< of those that it moves, the ones that wait for forces of others, or others for theirs
 };
 
 /// Groups of which a node follows one of the other.

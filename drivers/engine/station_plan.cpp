@@ -136,6 +136,12 @@ void absorb_slivers(Span& zone, const Span& run, double shortest) {
   if (run.last - zone.last < shortest) zone.last = run.last;
 }
 
+/// Widens the run to the ends of a body where less than `shortest` [m] would be left.
+void absorb_ends(Span& run, const Span& body, double shortest) {
+  if (run.first - body.first < shortest) run.first = body.first;
+  if (body.last - run.last < shortest) run.last = body.last;
+}
+
 /// Least distance of zones that both have their steps [m].
 double least_gap(const MeshSizes& sizes) {
   return 4 * kStepLength + 0.5 * sizes.contact * sizes.coarse_ratio;
@@ -173,6 +179,7 @@ NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, co
   run.last = std::min(run.last, rail.last);
   const double coarse = sizes.contact * sizes.coarse_ratio;
   const double shortest = 0.5 * coarse;
+  absorb_ends(run, rail, shortest);
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
@@ -255,8 +262,10 @@ WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const Mesh
   NestedSegments lengths;
   std::vector<Segment>& segments = lengths.fine;
   double left = turn;
+  // A stretch of less than half an element goes to the one beside it.
+  const double shortest = 0.5 * pitch;
   const auto evenly = [&](double length, double size) {
-    length = std::min(length, left);
+    if (length > 0 && left - length < shortest) length = left;
     append_uniform(lengths, {0, length}, size, 1);
     left -= std::max(length, 0.0);
   };
@@ -266,9 +275,10 @@ WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const Mesh
     evenly(zone->last - zone->first, sizes.contact);
     at = zone->first;
   }
-  const double behind = std::min(at - run.first, left);
-  const double ahead = std::min(run.last - zones.back().last, left - behind);
-  evenly(behind, pitch);
+  if (const double behind = at - run.first; behind >= shortest) evenly(behind, pitch);
+  double ahead = std::min(run.last - zones.back().last, left);
+  if (ahead < shortest) ahead = 0;
+  if (ahead > 0 && left - ahead < shortest) ahead = left;
   const double rest = left - ahead;
   if (rest > 1e-9) {
     auto growing = graded(0.5 * rest, pitch, 2 * sizes.section);
@@ -291,6 +301,7 @@ WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones
          std::min(all.last, run.last + patch_reach(radius))};
   const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
   const double shortest = 0.5 * pitch;
+  absorb_ends(run, all, shortest);
   const std::vector<Span> within = zones_within(run, zones, shortest, shortest);
   // From the end backwards.
   NestedSegments lengths;

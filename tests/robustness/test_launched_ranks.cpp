@@ -105,13 +105,18 @@ TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
   expect_same_run(root_ / "whole", folder_);
 }
 
-/// Files of ranks with a device each are those of two such ranks. They go on on processors.
+/// Files of ranks with a device each are those of two such ranks. One process says that it is another.
 TEST_F(LaunchedRanks, WithADeviceEach) {
   const std::string emulated = "--device emulated --set \"motion.duration=0.15 ms\"";
   ASSERT_EQ(call_on(2, run(root_ / "two", emulated)), 0) << errors();
   EXPECT_TRUE(has(content_of(root_ / "two/summary.json"), "\"device\": \"emulated\"")) << errors();
   EXPECT_EQ(call_on(3, run(folder_, emulated + " --set stop.steps=100")), 4) << errors();
   const std::string resume = fmt::format("resume {} -t 1 --set stop.steps=0 ", folder_.string());
+  fs::copy(folder_, root_ / "copy", fs::copy_options::recursive);
+  EXPECT_EQ(
+      call(fmt::format("resume {} -t 1 --set stop.steps=120 --device emulated", (root_ / "copy").string())),
+      4);
+  EXPECT_TRUE(has(errors(), "it was written by steps on the device emulated, of several ranks")) << errors();
   ASSERT_EQ(call_on(4, resume + "--device emulated"), 0) << errors();
   EXPECT_FALSE(has(errors(), "it was written by")) << errors();
   expect_same_run(root_ / "two", folder_);

@@ -30,6 +30,23 @@ TEST(StationPlan, HasNoSliverWhereverTheRunEnds) {
   }
 }
 
+TEST(StationPlan, HasNoSliverAtTheEndsOfABodyAndAroundATyre) {
+  const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+  const Span zone{0.1, 0.4};
+  const Span run{-0.0427, 0.5};
+  for (double beyond = 0; beyond < 0.03; beyond += 0.13e-3) {
+    const Span rail{run.first - beyond, run.last + beyond};
+    EXPECT_GE(shortest(plan_rail(rail, run, {zone}, sizes).fine), 0.45 * sizes.contact) << beyond;
+    EXPECT_GE(0.43 * shortest(plan_tyre_part(0.43, run, {zone}, 0.04 + beyond, sizes).tread),
+              0.45 * sizes.contact)
+        << beyond;
+  }
+  for (double way = 0.05; way < 3; way += 0.83e-3)
+    EXPECT_GE(0.43 * shortest(plan_tyre(0.43, {-0.0427, way}, {{0.0, way - 0.0427}}, sizes).tread),
+              0.45 * sizes.contact)
+        << way;
+}
+
 /// Largest pitch that meets [first, last] of the stations from `start` on.
 double largest_pitch(double start, const std::vector<Segment>& segments, double first, double last) {
   double largest = 0;

@@ -34,6 +34,9 @@ void require_parts(const Scene& scene) {
           "the scene has no [corrugation] to begin with; corrugation.kind = \"random\" is roughness");
   require(scene.corrugation->apply == "gap",
           "corrugation.apply = \"nodes\" would need another mesh for each passage; state \"gap\"");
+  require(scene.corrugation->kind != "map" || scene.wear->across,
+          "corrugation.kind = \"map\" differs across the rail, and one line along it wears; state "
+          "wear.across = true");
 }
 
 void require_waves(const Scene& scene, const Corrugation& corrugation) {

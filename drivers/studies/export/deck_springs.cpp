@@ -192,6 +192,7 @@ void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   if (!deck.model().fastenings) return;
   SpringEnds ends(deck);
   for (const SpringDampers::Element& element : deck.model().fastenings->elements()) {
+    if (element.stiffness == 0 && element.damping == 0) continue;  // broken: its ends would have no mass
     const DeckSpring spring{element.component, element.stiffness, element.damping};
     const auto [upper, lower] = ends.add(element, spring);
     parts.add(upper, lower, spring);
