@@ -21,8 +21,8 @@ void add_verify(CLI::App& app, const std::string& /*command_line*/) {
   command.add_option("-o,--output", options->output, "directory for a page and figures of each case");
   add_thread_options(command, options->threads);
   add_device_option(command, options->device);
-  command.add_flag("--list", options->list, "the cases and their inputs");
-  command.add_flag("--json", options->json, "one JSON object a line on stdout");
+  command.add_flag("--list", options->list, "the cases and their inputs; with names only these");
+  command.add_flag("--json", options->json, "on stdout, one JSON object a line; with --list one JSON list");
   command.add_flag("--quiet", options->quiet, "no progress on stderr");
   command.callback([options] {
     bool passed = false;

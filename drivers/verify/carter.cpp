@@ -50,6 +50,7 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   bodies.grid_offset = inputs["grid_offset"];
   const double a = inputs["semi_axis"];
   const double exploitation = inputs["exploitation"];
+  if (exploitation == 0) throw InputError("verify: exploitation is zero: no traction to compare");
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
   const double observed = 4 * a;

@@ -56,6 +56,9 @@ CaseResult extremes_corrugation(const VerifyInputs& inputs, const ProgressText& 
          {at + "smallest F_N", "kN", std::min(0.0, 1e-3 * normal.min), 0, 0, true},
          {at + "largest fall of the frictional work / work", "-",
           run.frictional_work_decrease / run.samples.back().energy.frictional_work, 0, 1e-6, true}});
+    // A wave between is to throw the wheel off; the wheel may bridge shorter waves and follow longer ones.
+    if (wavelength == inputs["wavelength"])
+      result.findings.push_back({at + "the wheel leaves the rail", "-", off > 0 ? 1.0 : 0.0, 1, 0, true});
     judge_ride(at, model, run, result.findings);
     if (off > 0)
       result.findings.push_back(
@@ -79,7 +82,8 @@ VerifyCase extremes_corrugation_case() {
   inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {1, 300}, "the rolling speed"});
   inputs.push_back({"depth", &kLength, "mm", 0.5e-3, {1e-6, 0.01}, "the corrugation's depth"});
   inputs.push_back({"shortest", &kLength, "mm", 0.02, {5e-3, 1}, "the shortest wavelength"});
-  inputs.push_back({"wavelength", &kLength, "mm", 0.08, {5e-3, 1}, "a wavelength between"});
+  inputs.push_back(
+      {"wavelength", &kLength, "mm", 0.08, {5e-3, 1}, "a wavelength between, which throws the wheel off"});
   inputs.push_back({"longest", &kLength, "mm", 0.3, {5e-3, 1}, "the longest wavelength"});
   return {"extremes_corrugation", "corrugations that throw the wheel off the rail", std::move(inputs),
           extremes_corrugation, kExtremes};

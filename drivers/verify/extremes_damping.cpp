@@ -130,6 +130,7 @@ CaseResult extremes_damping(const VerifyInputs& inputs, const ProgressText& prog
       find("the refusal states the formula", "-", formula ? 1 : 0, 1, 0.0, true);
       continue;
     }
+    if (share < kLeastShare) find("refusals of a step below 0.5 of the undamped", "-", 0, 1, 0.0, true);
     find("step / undamped", "-", dt / free_step, share, 1e-3, false);
     Series curve{damping.label, {}, {}, Stroke::solid};
     const double omega = FirstMode(model, h).frequency();

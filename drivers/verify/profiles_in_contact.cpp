@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/math/statistics.hpp"
 #include "drivers/verify/cases.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -140,8 +141,18 @@ class ProfilesOnHalfSpace {
 
 CaseResult profiles_in_contact(const VerifyInputs& inputs, const ProgressText& progress) {
   CaseResult result;
+  const auto chosen = [&](double offset) { return offset >= inputs["first"] && offset <= inputs["last"]; };
+  if (std::ranges::none_of(kOffsets, chosen)) {
+    std::string offsets;
+    for (const double offset : kOffsets)
+      offsets += fmt::format("{}{:g}", offsets.empty() ? "" : ", ", 1e3 * offset);
+    throw InputError(
+        fmt::format("verify: none of the offsets, {} mm, lies between first = {:g} mm and last = {:g} mm; "
+                    "state a smaller first or a larger last",
+                    offsets, 1e3 * inputs["first"], 1e3 * inputs["last"]));
+  }
   for (const double offset : kOffsets) {
-    if (offset < inputs["first"] || offset > inputs["last"]) continue;
+    if (!chosen(offset)) continue;
     Model model(wheel_on_rail(inputs, offset));
     progress(fmt::format("{} elements, lateral offset {:g} mm", model.elements(), 1e3 * offset));
     const Preload preload = solve_preload(model, {}, progress);

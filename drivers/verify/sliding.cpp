@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/roll_tyre.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 CaseResult sliding(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = tyre_of(inputs, false);
   bodies.friction = inputs["friction"];
+  if (inputs["creepage"] == 0) throw InputError("verify: creepage is zero: the wheel does not slide");
   const double speed = inputs["speed"];
   const double way = inputs["way"];
   bodies.roll_on(speed, way, way, fmt::format("creepage = {}", inputs["creepage"]));

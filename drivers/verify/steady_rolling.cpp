@@ -154,9 +154,9 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
   TyreOnBlock bodies = tyre_of(inputs, false);
   const double mu = inputs["mu"];
   bodies.friction = inputs["friction"];
-  if (std::abs(mu) > 0.95 * bodies.friction)
-    throw InputError(fmt::format("verify: mu = {:g} is not below 0.95 of friction = {:g}: no steady rolling",
-                                 mu, bodies.friction));
+  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
+    throw InputError(
+        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
   bodies.guided = true;  // light and rigid: motions excited by the torque decay fast

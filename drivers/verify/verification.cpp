@@ -166,11 +166,11 @@ std::string list_json(const std::vector<const VerifyCase*>& cases) {
 }
 
 /// Inputs that differ from the case's own, each after `lead`.
-std::string changed_inputs(const Outcome& outcome, std::string_view lead) {
+std::string changed_inputs(const VerifyCase& verified, const VerifyInputs& inputs, std::string_view lead) {
   std::string text;
-  for (std::size_t i = 0; i < outcome.verified->inputs.size(); ++i) {
-    const VerifyInput& input = outcome.inputs.all()[i];
-    if (input.value != outcome.verified->inputs[i].value)
+  for (std::size_t i = 0; i < verified.inputs.size(); ++i) {
+    const VerifyInput& input = inputs.all()[i];
+    if (input.value != verified.inputs[i].value)
       text += fmt::format("{}{}=\"{}\"", lead, input.name, shown(input));
   }
   return text;
@@ -179,7 +179,7 @@ std::string changed_inputs(const Outcome& outcome, std::string_view lead) {
 /// The case's name and what differs from its own inputs, fit for a file's name.
 std::string page_name(const Outcome& outcome) {
   std::string name = outcome.verified->name;
-  for (const char c : changed_inputs(outcome, "-"))
+  for (const char c : changed_inputs(*outcome.verified, outcome.inputs, "-"))
     if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_')
       name += c;
     else if (c == '=')
@@ -190,7 +190,8 @@ std::string page_name(const Outcome& outcome) {
 /// A chapter of docs/records/verification.md: Markdown table and SVG figures.
 void write_page(const Outcome& outcome, const std::filesystem::path& directory) {
   const std::string name = page_name(outcome);
-  const std::string command = "`tread verify " + outcome.verified->name + changed_inputs(outcome, " --set ");
+  const std::string command = "`tread verify " + outcome.verified->name +
+                              changed_inputs(*outcome.verified, outcome.inputs, " --set ");
   std::string text =
       fmt::format("{}`: {}; {}.\n\n", command, outcome.verified->summary, duration_text(outcome.seconds));
   Table table = table_of({&outcome, 1});
@@ -204,6 +205,13 @@ void write_page(const Outcome& outcome, const std::filesystem::path& directory) 
     text += fmt::format("![{}]({})\n\n", outcome.result.figures[i].title, file);
   }
   write_text_file(directory / (name + ".md"), text);
+}
+
+/// Throws InputError if nothing was compared within a bound: the case would pass without a judgement.
+void require_judged(const VerifyCase& verified, const VerifyInputs& inputs, const CaseResult& result) {
+  if (std::ranges::any_of(result.findings, [](const Finding& f) { return f.bound.has_value(); })) return;
+  throw InputError(fmt::format("verify: {} judges nothing with these inputs:{}; state others", verified.name,
+                               changed_inputs(verified, inputs, " ")));
 }
 
 bool passes(const Outcome& outcome) {
@@ -230,6 +238,7 @@ void run_cases(const std::vector<const VerifyCase*>& cases, const std::vector<Ve
     CaseResult result = cases[i]->run(inputs[i], [&](const std::string& text) {
       progress.say(fmt::format("[{}] {}", cases[i]->name, text));
     });
+    require_judged(*cases[i], inputs[i], result);
     outcomes.push_back({cases[i], inputs[i], std::move(result), progress.seconds() - started});
     ended();
   }

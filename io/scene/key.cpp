@@ -28,7 +28,6 @@ void TableNames::add(std::string_view table) {
 }
 
 std::string Condition::why_idle() const {
-  if (!needs_one.empty()) return fmt::format("has no effect without {}", fmt::join(needs_one, " or "));
   if (needs_table()) return fmt::format("has no effect without [{}]", key);
   return fmt::format("has {} with {} = {}", negated ? "no effect" : "an effect only", key, alternatives());
 }

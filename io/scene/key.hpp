@@ -48,14 +48,12 @@ struct Bounds {
 };
 
 /// The key has an effect only where the table `key` is present (no `values`), the text key `key` has one of
-/// these values, or none with `negated`, or, with `names_file`, that text key names a file. With `needs_one`,
-/// one of these number keys has to be set besides.
+/// these values, or none with `negated`, or, with `names_file`, that text key names a file.
 struct Condition {
   std::string key;
   std::vector<std::string> values;
   bool names_file = false;
   bool negated = false;
-  std::vector<std::string> needs_one = {};
 
   bool needs_table() const { return values.empty() && !names_file; }
   /// The values, "\"sine\" or \"random\"", or "a file".
@@ -78,7 +76,6 @@ struct Key {
   bool required = false;    ///< must be given where the table is present
   Condition only_with = {};
   std::optional<double> idle_value = {};  ///< may be stated where only_with does not hold
-  bool idle_default = false;              ///< its default may be stated where the condition's table is
   std::string excludes = {};              ///< a key that a later layer's value of this one replaces
   bool names_material = false;  ///< a text that names the material of the part that the key's table describes
 };

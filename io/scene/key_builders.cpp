@@ -81,12 +81,6 @@ Key with_table(std::string table, Key key) {
   return only_with(std::move(table), std::vector<std::string>{}, std::move(key));
 }
 
-Key with_one_of(std::vector<std::string> numbers, Key key) {
-  key.only_with.needs_one = std::move(numbers);
-  key.idle_default = true;
-  return key;
-}
-
 Key with_file(std::string other, Key key) {
   key.only_with = {std::move(other), {}, true};
   return key;

@@ -85,8 +85,6 @@ Key only_with(std::string condition, std::string value, Key key);
 /// A key without effect where the text key `condition` has this value; `idle_value` may be stated there.
 Key not_with(std::string condition, std::string value, double idle_value, Key key);
 Key with_table(std::string table, Key key);
-/// A key with an effect only where one of these number keys is set; its default may be stated without them.
-Key with_one_of(std::vector<std::string> numbers, Key key);
 /// A key with an effect only where the text key `other` names a file.
 Key with_file(std::string other, Key key);
 Key instead_of(std::string other, Key key);

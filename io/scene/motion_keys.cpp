@@ -84,20 +84,17 @@ void add_motion(Keys& keys) {
       "motion.traction.mu",
       quantity("motion.traction.torque", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_torque),
                kTorque, "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
-  const auto driven = [&](Key key) {
-    return with_one_of({"motion.traction.mu", "motion.traction.torque"}, rolling(std::move(key)));
-  };
-  keys.push_back(driven(quantity("motion.traction.ramp", {Effect::motion},
-                                 at(&Scene::motion, &MotionSpec::ramp), kTime, "ms", from(0, 100),
-                                 "Time T1 in which the torque grows from zero; 0: the wheel has long been "
-                                 "rolling under it, as the static state has, too; a guided bore gets it at "
-                                 "once")));
-  keys.push_back(
-      driven(choice("motion.traction.shape", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp_shape),
-                    {"linear", "smooth"}, "Growth and reversal of the torque: linear, or as half a cosine")));
-  keys.push_back(
-      driven(number("motion.traction.reversals", {Effect::motion}, at(&Scene::motion, &MotionSpec::reversals),
-                    {0, 1000}, "Number of later reversals of the full torque, each in 2 T1", Kind::integer)));
+  keys.push_back(rolling(quantity("motion.traction.ramp", {Effect::motion},
+                                  at(&Scene::motion, &MotionSpec::ramp), kTime, "ms", from(0, 100),
+                                  "Time T1 in which the torque grows from zero; 0: the wheel has long been "
+                                  "rolling under it, as the static state has, too; a guided bore gets it at "
+                                  "once")));
+  keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
+                                at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
+                                "Growth and reversal of the torque: linear, or as half a cosine")));
+  keys.push_back(rolling(
+      number("motion.traction.reversals", {Effect::motion}, at(&Scene::motion, &MotionSpec::reversals),
+             {0, 1000}, "Number of later reversals of the full torque, each in 2 T1", Kind::integer)));
   keys.push_back(rolling(flag("motion.spin_in_preload", {Effect::preload},
                               at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "The static state carries the spin's body force")));

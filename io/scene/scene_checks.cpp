@@ -237,7 +237,9 @@ class Checker {
             "only a free wheel on a rail on [fastenings] can have been rolling; state start = \"moving\"");
     require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
             "state the traction by mu or by torque, not both");
-    require(motion.reversals == 0 || motion.ramp > 0, {"motion.traction.reversals", "motion.traction.ramp"},
+    const bool driven = motion.traction_mu || motion.traction_torque;
+    require(!driven || motion.reversals == 0 || motion.ramp > 0,
+            {"motion.traction.reversals", "motion.traction.ramp"},
             "a reversal takes 2 T1, and motion.traction.ramp = 0 leaves no time for it; state a "
             "motion.traction.ramp above 0, or motion.traction.reversals = 0");
     require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},

@@ -239,9 +239,7 @@ class SceneBuilder {
     if (found == settings_.end() || std::holds_alternative<std::monostate>(field)) return;
     const Setting& setting = found->second;
     if (!applies(key, scene_)) {
-      const auto is_bad = [&](const std::string& path) { return bad_.count(path) > 0; };
-      const bool unclear = is_bad(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table()) ||
-                           std::ranges::any_of(key.only_with.needs_one, is_bad);
+      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table());
       if (setting.origin.level == Level::library || unclear || is_idle_value(key, *setting.node, scene_))
         return;
       report(setting.origin.place, key.path, key.only_with.why_idle());

@@ -84,8 +84,6 @@ std::string meaning_of(const Key& key) {
   std::string text = key.description;
   if (key.only_with.key.empty()) return text;
   const Condition& condition = key.only_with;
-  if (!condition.needs_one.empty())
-    return fmt::format("{} (only with `{}`)", text, fmt::join(condition.needs_one, "` or `"));
   return text + (condition.needs_table()
                      ? fmt::format(" (only with `[{}]`)", condition.key)
                      : fmt::format(" ({} with `{} = {}`)", condition.negated ? "not" : "only", condition.key,

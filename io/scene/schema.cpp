@@ -111,16 +111,10 @@ std::string usual_user(std::string_view material) {
 bool applies(const Key& key, const Scene& scene) {
   if (key.only_with.key.empty()) return true;
   if (!table_of(key.only_with.key)->exists(scene)) return false;
-  // The places are read alone; a copy of the scene for each key would cost time that grows as the square.
-  const auto located = [&](const Key& other) { return other.locate(const_cast<Scene&>(scene)); };
-  const std::vector<std::string>& numbers = key.only_with.needs_one;
-  const auto is_stated = [&](const std::string& path) {
-    return number_at(located(*find_key(path))).has_value();
-  };
-  if (!numbers.empty() && std::none_of(numbers.begin(), numbers.end(), is_stated)) return false;
   if (key.only_with.needs_table()) return true;
   const std::optional<Key> other = find_key(key.only_with.key);
-  const std::string& value = *std::get<std::string*>(located(*other));
+  // The place is read alone; a copy of the scene for each key would cost time that grows as the square.
+  const std::string& value = *std::get<std::string*>(other->locate(const_cast<Scene&>(scene)));
   const std::vector<std::string>& values = key.only_with.names_file ? other->allowed : key.only_with.values;
   const bool listed = std::find(values.begin(), values.end(), value) != values.end();
   return listed != (key.only_with.names_file || key.only_with.negated);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <map>
+#include <optional>
 
 #include "core/geometry/built_in_profiles.hpp"
 #include "io/scene/key.hpp"
@@ -42,19 +43,32 @@ double half_foot(const RailProfile& section) {
   return half;
 }
 
+/// The rail's built-in section, or the one that its own head stands on; none: a box, or a file's.
+std::optional<RailProfile> built_in_section(const RailSpec& rail) {
+  const std::string& name = rail.profile_y.empty() ? rail.profile : rail.section;
+  if (rail.profile == "box" || std::ranges::find(kBuiltInRails, name) == kBuiltInRails.end()) return {};
+  return built_in_rail(name);
+}
+
+/// y of the middle of the foot [m]: the rail leans about its crown. 0 where the section is not known.
+double foot_middle(const Scene& scene) {
+  if (scene.body_replacing("rail")) return 0;
+  const std::optional<RailProfile> section = built_in_section(*scene.rail);
+  return section ? section->height * std::sin(std::atan(scene.rail->inclination)) : 0;
+}
+
 /// The outer spring-dampers act on the foot and on the slab.
 void check_widths(const Scene& scene, const FasteningSpec& fastenings, Require require) {
   const RailSpec& rail = *scene.rail;
   if (scene.body_replacing("rail")) return;
   const double outermost = fastenings.row_offset(fastenings.rows - 1);
-  double middle = 0;  // of the foot: the rail leans about its crown
+  const double middle = foot_middle(scene);
   if (rail.profile != "box") {
     const bool own_head = !rail.profile_y.empty();
     const std::string& name = own_head ? rail.section : rail.profile;
-    if (std::ranges::find(kBuiltInRails, name) == kBuiltInRails.end()) return;
-    const RailProfile section = built_in_rail(name);
-    const double lean = std::atan(rail.inclination), half = half_foot(section) * std::cos(lean);
-    middle = section.height * std::sin(lean);
+    const std::optional<RailProfile> section = built_in_section(rail);
+    if (!section) return;
+    const double half = half_foot(*section) * std::cos(std::atan(rail.inclination));
     require(
         outermost <= half + kLengthTolerance,
         {"fastenings.pad_width", "fastenings.rows", own_head ? "rail.section" : "rail.profile"},
@@ -74,16 +88,21 @@ void check_widths(const Scene& scene, const FasteningSpec& fastenings, Require r
                   left, right, middle - outermost, middle + outermost));
 }
 
-void check_sleepers(const SleeperSpec& sleepers, const FasteningSpec& fastenings, Require require) {
+void check_sleepers(const Scene& scene, const FasteningSpec& fastenings, Require require) {
+  const SleeperSpec& sleepers = *scene.sleepers;
   require(fastenings.count == 1 || sleepers.width < fastenings.spacing,
           {"sleepers.width", "fastenings.spacing"}, "neighbouring sleepers overlap");
   require(fastenings.pad_length <= sleepers.width + kLengthTolerance,
           {"sleepers.width", "fastenings.pad_length"}, "the pad is longer than the sleeper is wide");
   const double inner = sleepers.offset - 0.5 * sleepers.length;
   const double outer = sleepers.offset + 0.5 * sleepers.length;
-  require(inner <= -0.5 * fastenings.pad_width && outer >= 0.5 * fastenings.pad_width,
-          {"sleepers.offset", "sleepers.length"},
-          fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m", inner, outer));
+  const double outermost = fastenings.row_offset(fastenings.rows - 1), middle = foot_middle(scene);
+  require(middle - outermost >= inner - kLengthTolerance && middle + outermost <= outer + kLengthTolerance,
+          {"sleepers.offset", "sleepers.length", "fastenings.pad_width", "fastenings.rows"},
+          fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m: the fastenings' "
+                      "spring-dampers lie from {:.4g} m to {:.4g} m; state a larger sleepers.length, another "
+                      "sleepers.offset or a smaller fastenings.pad_width",
+                      inner, outer, middle - outermost, middle + outermost));
 }
 
 /// A support that differs, and where the scene says so.
@@ -177,7 +196,7 @@ void check_supports(const Scene& scene, Require require) {
   if (!scene.rail || !scene.fastenings) return;
   check_fastenings(scene, *scene.fastenings, require);
   check_widths(scene, *scene.fastenings, require);
-  if (scene.sleepers) check_sleepers(*scene.sleepers, *scene.fastenings, require);
+  if (scene.sleepers) check_sleepers(scene, *scene.fastenings, require);
   check_altered(scene, require);
 }
 

@@ -124,20 +124,16 @@ void read_value(const Key& key, const toml::node& node, const fs::path& folder, 
 }
 
 bool is_idle_value(const Key& key, const toml::node& node, Scene scene) {
-  const bool idle_default = key.idle_default && table_of(key.only_with.key)->exists(scene);
-  if (!key.idle_value && !idle_default) return false;
+  if (!key.idle_value) return false;
   const Field field = key.locate(scene);
-  const auto* text = std::get_if<std::string*>(&field);
-  const std::string text_before = text ? **text : "";
   const std::optional<double> before = number_at(field);
   try {
     read_value(key, node, {}, field);
   } catch (const InputError&) {
     return false;
   }
-  if (text) return **text == text_before;
   const std::optional<double> stated = number_at(field);
-  return stated == before || (key.idle_value && stated == key.idle_value);
+  return stated == key.idle_value || stated == before;
 }
 
 }  // namespace tread

@@ -14,8 +14,8 @@ namespace tread {
 void read_value(const Key& key, const toml::node& node, const std::filesystem::path& folder,
                 const Field& field);
 
-/// Returns true if a value may be stated though it has no effect: of a key with an idle_value or an
-/// idle_default, that value, or what the scene has already. A default needs the condition's table.
+/// Returns true if a number's value may be stated though it has no effect: the key's idle_value, or what the
+/// scene has already.
 bool is_idle_value(const Key& key, const toml::node& node, Scene scene);
 
 /// Throws InputError.

@@ -1,0 +1,44 @@
+// Inputs of verification cases that leave nothing to compare.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/verify/verification.hpp"
+
+namespace tread {
+namespace {
+
+std::string refusal(const std::string& name, const std::vector<std::string>& overrides) {
+  VerifyOptions options;
+  options.names = {name};
+  options.overrides = overrides;
+  options.quiet = true;
+  try {
+    verify(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(VerifyInputs, ThatLeaveNoPlaceOfTheProfilesAreRefused) {
+  const std::string offsets = "verify: none of the offsets, 1, 2, 4, 5, 6, 8, 10 mm, lies between ";
+  const std::string advice = "; state a smaller first or a larger last";
+  EXPECT_EQ(refusal("profiles_in_contact", {"first=8.5 mm", "last=9.5 mm"}),
+            offsets + "first = 8.5 mm and last = 9.5 mm" + advice);
+  EXPECT_EQ(refusal("profiles_in_contact", {"first=6 mm", "last=2 mm"}),
+            offsets + "first = 6 mm and last = 2 mm" + advice);
+}
+
+TEST(VerifyInputs, ThatMakeTheReferenceZeroAreRefused) {
+  EXPECT_EQ(refusal("carter", {"exploitation=0"}), "verify: exploitation is zero: no traction to compare");
+  EXPECT_EQ(refusal("steady_rolling", {"mu=0"}),
+            "verify: mu = 0 is zero or not below 0.95 of friction = 0.5");
+  EXPECT_EQ(refusal("sliding", {"creepage=0"}), "verify: creepage is zero: the wheel does not slide");
+}
+
+}  // namespace
+}  // namespace tread
