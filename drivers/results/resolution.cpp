@@ -137,18 +137,28 @@ std::string slope_warning(const CorrugationSpec& corrugation) {
       slope, 1e3 * corrugation.depth, 1e3 * corrugation.wavelength, kSlope);
 }
 
-/// Outer rows of a map that are not zero are steps beside the patch.
-std::string side_warning(const CorrugationSpec& corrugation) {
+/// Across: the faces of the rail that the wheel can touch.
+Span touchable(const Model& model) {
+  const SurfaceProfile& rail = model.contact->surfaces().rail_profile();
+  const auto [first, last] = model.contact->searching().edges();
+  return {rail.edge_p(first, 0), rail.edge_p(last - 1, 1)};
+}
+
+/// Outer rows of a map that are not zero are steps, where the wheel can touch them.
+std::string side_warning(const Model& model) {
+  const CorrugationSpec& corrugation = *model.scene.corrugation;
   if (corrugation.map_y.empty()) return "";
   const std::vector<double>& depth = corrugation.table_depth;
-  const auto deepest = [](auto begin, auto end) {
+  const Span touched = touchable(model);
+  const auto deepest = [&](double y, auto begin, auto end) {
     double most = 0;
+    if (y <= touched.first || y >= touched.last) return most;
     for (; begin != end; ++begin) most = std::max(most, std::abs(*begin));
     return most;
   };
   const auto places = std::ssize(corrugation.table_x);
-  const double sides[] = {deepest(depth.begin(), depth.begin() + places),
-                          deepest(depth.end() - places, depth.end())};
+  const double sides[] = {deepest(corrugation.map_y.front(), depth.begin(), depth.begin() + places),
+                          deepest(corrugation.map_y.back(), depth.end() - places, depth.end())};
   if (std::max(sides[0], sides[1]) <= kStep) return "";
   return fmt::format(
       "the outer rows of {}, y = {:.3g} and {:.3g} mm, are up to {:.3g} and {:.3g} um deep: beside them the "
@@ -168,7 +178,7 @@ std::string step_warning(const CorrugationSpec& corrugation) {
     first = std::max(first, std::abs(depth[row]));
     last = std::max(last, std::abs(depth[row + places - 1]));
   }
-  if (std::max(first, last) <= kStep) return side_warning(corrugation);
+  if (std::max(first, last) <= kStep) return "";
   return fmt::format(
       "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, "
       "so that the rail has a step there; let both ends fade to 0",
@@ -187,9 +197,7 @@ std::optional<double> shortest_length(const SurfaceSpec& spec, double radius) {
 /// Sentence where a dent lies beside all faces that the wheel can touch.
 std::string dent_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   if (spec.kind != "dent") return "";
-  const SurfaceProfile& rail = model.contact->surfaces().rail_profile();
-  const auto [first, last] = model.contact->searching().edges();
-  const Span touched{rail.edge_p(first, 0), rail.edge_p(last - 1, 1)};
+  const Span touched = touchable(model);
   const Span dent{spec.centre - 0.5 * spec.width, spec.centre + 0.5 * spec.width};
   if (dent.last > touched.first && dent.first < touched.last) return "";
   return fmt::format(
@@ -267,10 +275,14 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   warnings.push_back(profile_warning("rail", rail.profile_y, rail.profile_z));
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
+  for (const auto& [name, zone] : model.scene.zones)
+    warnings.push_back(way_warning(model.scene, fmt::format("zone.{}", name), {zone.start, zone.end()},
+                                   zone.start, "its elements have no effect on the rail"));
   if (model.scene.corrugation) warnings.push_back(start_warning(model));
   if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
       corrugation && corrugation->in_file()) {
     warnings.push_back(step_warning(*corrugation));
+    warnings.push_back(side_warning(model));
   } else if (corrugation) {
     warnings.push_back(length_warning("a wave of the corrugation", shortest_wave(*corrugation),
                                       model.sizes.contact, "the wave"));

@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kOff = "off";
 constexpr const char* kGroup = "preload";
-constexpr const char* kSeconds = "solved/seconds";  ///< entries of older programs lack it
+constexpr const char* kSeconds = "solved/seconds";
 
 using PreloadClock = std::chrono::steady_clock;
 
@@ -119,8 +119,7 @@ std::optional<FoundPreload> recall_preload(const ContentCache& cache, const std:
   try {
     if (!content && refused.empty()) return std::nullopt;
     if (!content) throw InputError(refused);
-    FoundPreload found{unpack_preload(*content, model), true, {}};
-    if (content->contains(kSeconds)) found.seconds = sealed_value<double>(*content, kSeconds);
+    FoundPreload found{unpack_preload(*content, model), true, sealed_value<double>(*content, kSeconds)};
     const Preload& preload = found.preload;
     if (model.contact) model.contact->find_static({preload.displacement.data(), nullptr, &preload.wheel});
     return found;
@@ -158,7 +157,7 @@ void keep_preload(const ContentCache& cache, const std::string& key, FoundPreloa
   try {
     SealedContent content;
     pack(fields_of(found.preload), kGroup, content);
-    if (found.seconds) content[kSeconds] = std::vector<double>{*found.seconds};
+    content[kSeconds] = std::vector<double>{found.seconds};
     cache.store(key, std::move(content));
   } catch (const ResourceError& error) {
     say(fmt::format("not kept for later runs: {}; TREAD_CACHE or --cache names another folder, or off",

@@ -18,8 +18,8 @@ std::optional<ContentCache> preload_cache(const std::string& place);
 
 struct FoundPreload {
   Preload preload;
-  bool cached;                    ///< found by an earlier run
-  std::optional<double> seconds;  ///< time of its solving, here or then; nothing where that is not known [s]
+  bool cached;         ///< found by an earlier run
+  double seconds = 0;  ///< time of its solving, here or then [s]
 };
 
 /// The preload of a model made of `resolved`, and the model as solve_preload() leaves it: from the cache,

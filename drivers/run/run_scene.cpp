@@ -32,8 +32,6 @@
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
-#include "io/report/plain_text.hpp"
-#include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 #include "kernels/device/device.hpp"
 
@@ -93,7 +91,6 @@ Preload solve_statics(const RunSession& session, Model& model) {
 /// `resolved`: what the model was made of.
 void find_statics(const RunSession& session, const ResolvedScene& resolved, Model& model,
                   RunResults& results) {
-  const double started = session.progress.seconds();
   FoundPreload found = find_preload(
       preload_cache(session.options.cache), resolved, model, [&] { return solve_statics(session, model); },
       [&](const std::string& text) { session.enter("preload", text); },
@@ -101,7 +98,7 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
   results.preload = std::move(found.preload);
   if (found.cached) results.preload_cached = 1;
   // Waiting and reading are no cost of the scene: a cached preload keeps the time of its solving.
-  results.seconds_preload = found.seconds.value_or(session.progress.seconds() - started);
+  results.seconds_preload = found.seconds;
 }
 
 void choose_step(const RunSession& session, const Model& model, RunResults& results) {
