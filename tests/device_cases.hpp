@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,32 +22,45 @@
 
 namespace tread::samples {
 
-/// A scene from its preload on, on the processor or on devices.
-class DeviceCase {
+/// A scene from its preload on, on the processor, on devices or on ranks.
+class PreloadedScene {
  public:
-  explicit DeviceCase(const Scene& scene)
-      : model_(scene),
+  static constexpr std::int64_t kSampling = 70;  ///< steps between samples
+
+  explicit PreloadedScene(const Scene& scene)
+      : scene_(scene),
+        model_(scene),
         preload_(solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {})) {
-    if (scene.corrugation) model_.apply_corrugation(preload_.contact.pressure_peak.y);
+    if (scene.corrugation) {
+      deepest_ = preload_.contact.pressure_peak.y;
+      model_.apply_corrugation(*deepest_);
+    }
     dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
   }
 
+  const Scene& scene() const { return scene_; }
   const Model& model() const { return model_; }
   std::int64_t values() const { return 3 * model_.mesh.slots; }
+  /// Deepest line of the corrugation, if there is one.
+  const std::optional<double>& deepest() const { return deepest_; }
+  double patch_y() const { return preload_.contact.centre.y; }
+  double dt() const { return dt_; }
 
   /// null: the processor.
-  std::unique_ptr<Simulation> start(std::shared_ptr<Device> device) {
+  std::unique_ptr<Simulation> start(std::shared_ptr<Device> device) const {
     choose_device(std::move(device));
     auto simulation = std::make_unique<Simulation>(model_, preload_, dt_);
     choose_device(std::shared_ptr<Device>());
-    simulation->set_sampling_interval(70);
+    simulation->set_sampling_interval(kSampling);
     return simulation;
   }
 
  private:
+  Scene scene_;
   Model model_;
   Preload preload_;
-  double dt_;
+  std::optional<double> deepest_;
+  double dt_ = 0;
 };
 
 inline void roll_on(Simulation& simulation, std::int64_t steps) {
@@ -139,7 +153,7 @@ inline void expect_same_energies(const Sample& a, const Sample& b) {
 }
 
 /// Fields of a run on a device after the steps of a run in double on the processor. Returns their difference.
-inline Apart expect_same_fields(const Simulation& in_double, DeviceCase& at, const Simulation& on_device,
+inline Apart expect_same_fields(const Simulation& in_double, PreloadedScene& at, const Simulation& on_device,
                                 const std::string& precision) {
   const Apart error = apart(at.values(), in_double, on_device);
   if (precision == "double") {

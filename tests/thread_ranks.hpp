@@ -15,7 +15,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
@@ -23,10 +22,9 @@
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
 #include "kernels/device/device.hpp"
+#include "tests/device_cases.hpp"
 #include "tests/state_copies.hpp"
 
 namespace tread::samples {
@@ -125,40 +123,6 @@ class ThreadRanks final : public Ranks {
   int rank_;
 };
 
-/// A scene from its preload on.
-class RankCase {
- public:
-  explicit RankCase(const Scene& scene) : scene_(scene), model_(scene) {
-    preload_ = solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {});
-    if (scene.corrugation) {
-      deepest_ = preload_.contact.pressure_peak.y;
-      model_.apply_corrugation(*deepest_);
-    }
-    dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
-  }
-
-  const Scene& scene() const { return scene_; }
-  const Model& model() const { return model_; }
-  const std::optional<double>& deepest() const { return deepest_; }
-  double patch_y() const { return preload_.contact.centre.y; }
-  double dt() const { return dt_; }
-
-  /// On one process.
-  std::unique_ptr<Simulation> start() const {
-    auto simulation = std::make_unique<Simulation>(model_, preload_, dt_);
-    simulation->set_sampling_interval(kSampling);
-    return simulation;
-  }
-  static constexpr std::int64_t kSampling = 70;
-
- private:
-  Scene scene_;
-  Model model_;
-  Preload preload_;
-  std::optional<double> deepest_;
-  double dt_ = 0;
-};
-
 /// A run that goes on, on several ranks.
 class SharedRun {
  public:
@@ -166,7 +130,7 @@ class SharedRun {
 
   /// From the state of `before`. `shares`: of the work, by rank; none: the expected ones. `devices`: makes
   /// one for each rank; none: processors.
-  SharedRun(const RankCase& of, Simulation& before, int count, const std::vector<double>& shares = {},
+  SharedRun(const PreloadedScene& of, Simulation& before, int count, const std::vector<double>& shares = {},
             const Devices& devices = {}) {
     const auto meeting = std::make_shared<Meeting>(count);
     for (int rank = 0; rank < count; ++rank) {
@@ -178,7 +142,7 @@ class SharedRun {
       simulations_.push_back(std::make_unique<Simulation>(*models_.back(), of.patch_y(), of.dt()));
       choose_ranks(nullptr);
       choose_device(std::shared_ptr<Device>());
-      simulations_.back()->set_sampling_interval(RankCase::kSampling);
+      simulations_.back()->set_sampling_interval(PreloadedScene::kSampling);
       copy(before.state(), simulations_.back()->state());
       models_.back()->keep_masses(simulations_.back()->groups_with_mass());
       if (rank > 0) spoil(simulations_.back()->unshared_state());

@@ -36,12 +36,11 @@ class Ranks {
 
   virtual int rank() const = 0;
   virtual int count() const = 0;
-  /// Number of ranks, this one included, on this machine; and of those that may use the same of its cores.
+  /// Number of ranks, this one included, on this machine, and its place among them.
   virtual int on_host() const { return count(); }
-  /// Number of this rank among those of this machine.
   virtual int place_on_host() const { return rank(); }
+  /// The same of those that may use the same of its cores.
   virtual int on_cores() const { return count(); }
-  /// Its number among the latter.
   virtual int place_on_cores() const { return rank(); }
 
   /// Gives each rank the values of all: rank r has those of [first[r], first[r + 1]).

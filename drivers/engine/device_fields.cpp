@@ -127,12 +127,7 @@ void DeviceFields<Real, U>::add_patch_groups() {
 template <class Real, class U>
 void DeviceFields<Real, U>::advance_device_lag() {
   if (lag_step_ == 0) return;
-  for (int b = 0; b < marches_.blocks(); ++b) {
-    if (!this->q()->branch(b)) continue;
-    const SweptBlock& block = this->mesh().blocks[index(b)];
-    arrays_.advance_lag(b, lag_step_, block.base, block.base + block.slots());
-  }
-  lag_step_ = 0;
+  arrays_.advance_lag(std::exchange(lag_step_, 0), 0, this->mesh().slots);
 }
 
 template <class Real, class U>

@@ -24,8 +24,7 @@ void choose_holders(const Model& model, Movers& movers) {
       movers.held_ties.push_back(unknown);
     } else {
       mark = kHolds;
-      movers.held[static_cast<std::size_t>(group * kLanes + unknown % kLanes)] |=
-          static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
+      mark_held(unknown, movers.held);
     }
   }
 }
@@ -52,6 +51,11 @@ Movers movers_of(const Model& model) {
   movers.contact = model.contact && !meet(host, surfaces);
   choose_holders(model, movers);
   return movers;
+}
+
+void mark_held(std::int64_t unknown, std::vector<unsigned char>& held) {
+  held[static_cast<std::size_t>(unknown / kGroupValues * kLanes + unknown % kLanes)] |=
+      static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
 }
 
 DeviceNeed device_need(const Model& model) {

@@ -25,6 +25,9 @@ struct Movers {
 /// the host moves a node.
 Movers movers_of(const Model& model);
 
+/// Marks an unknown that stays zero. `held`: MarchFields::held, by slot.
+void mark_held(std::int64_t unknown, std::vector<unsigned char>& held);
+
 /// Needs of a model on a device.
 struct DeviceNeed {
   std::int64_t bytes = 0;       ///< memory, within the rounding of its pieces

@@ -2,6 +2,7 @@
 // Arrays of marches in the memory of a device: motion, lag and states of laws before and after a
 // step, masses and forces.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -79,10 +80,17 @@ class MarchArrays {
     return fields;
   }
 
-  /// The lag of the block's slots [first, last) follows the velocity of a step of dt [s].
-  void advance_lag(int block, double dt, std::int64_t first, std::int64_t last) {
-    const auto [kept, gained] = (*branch_lag_)->advance_of(block, dt);
-    kernels_->advance_lag(3 * (last - first), kept, gained, now.v.data() + 3 * first, lag.data() + 3 * first);
+  /// The lag of the slots [first, last), whole groups, follows the velocity of a step of dt [s].
+  void advance_lag(double dt, std::int64_t first, std::int64_t last) {
+    for (std::size_t b = 0; b < blocks_->size(); ++b) {
+      if (!(*branch_lag_)->branch(static_cast<int>(b))) continue;
+      const SweptBlock& block = (*blocks_)[b];
+      const std::int64_t from = std::max(first, block.base);
+      const std::int64_t to = std::min(last, block.base + block.slots());
+      if (from >= to) continue;
+      const auto [kept, gained] = (*branch_lag_)->advance_of(static_cast<int>(b), dt);
+      kernels_->advance_lag(3 * (to - from), kept, gained, now.v.data() + 3 * from, lag.data() + 3 * from);
+    }
   }
 
   Motion now, next;

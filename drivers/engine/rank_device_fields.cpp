@@ -6,6 +6,7 @@
 
 #include "core/contract.hpp"
 #include "core/index.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/restraints.hpp"
 
 namespace tread {
@@ -24,8 +25,7 @@ RankDeviceFields<Real, U>::RankDeviceFields(const Model& model, std::shared_ptr<
   std::vector<unsigned char> held(index(model.mesh.slots), 0);
   for (const std::int64_t unknown : held_unknowns(model.mesh, model.restrained)) {
     held_mark_[index(unknown / kGroupValues)] = kHolds;
-    held[index(unknown / kGroupValues * kLanes + unknown % kLanes)] |=
-        static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
+    mark_held(unknown, held);
   }
   held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(held));
   for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
@@ -153,16 +153,10 @@ void RankDeviceFields<Real, U>::come_home() {
 template <class Real, class U>
 void RankDeviceFields<Real, U>::advance_device_lag() {
   if (lag_step_ == 0) return;
-  for (int b = 0; b < marches_.blocks(); ++b) {
-    if (!this->q()->branch(b)) continue;
-    const SweptBlock& block = this->mesh().blocks[index(b)];
-    for (const auto* stretches : {&this->own_stretches(), &this->halo()})
-      this->cut().for_groups(*stretches, [&](std::int64_t first, std::int64_t last) {
-        const std::int64_t from = std::max(block.base, first * kLanes);
-        const std::int64_t to = std::min(block.base + block.slots(), last * kLanes);
-        if (from < to) arrays_.advance_lag(b, lag_step_, from, to);
-      });
-  }
+  for (const auto* stretches : {&this->own_stretches(), &this->halo()})
+    this->cut().for_groups(*stretches, [this](std::int64_t first, std::int64_t last) {
+      arrays_.advance_lag(lag_step_, first * kLanes, last * kLanes);
+    });
   lag_step_ = 0;
 }
 

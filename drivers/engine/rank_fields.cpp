@@ -345,9 +345,7 @@ void RankFields<Real, U>::advance_lag(double dt) {
   const auto advance = [&](std::int64_t first, std::int64_t last) {
     this->q()->advance(this->v().data(), dt, first * kLanes, last * kLanes);
   };
-  for (const auto* stretches : {&own_stretches(), &halo()})
-    for (const TileStretch& stretch : *stretches)
-      advance(cut_.first_group(stretch.first), cut_.first_group(stretch.last));
+  for (const auto* stretches : {&own_stretches(), &halo()}) cut_.for_groups(*stretches, advance);
   for (const Joint& joint : cut_.joints())
     if (joint.near == ranks_->rank()) advance(joint.slot / kLanes, joint.slot / kLanes + joint.nodes);
 }
@@ -371,9 +369,9 @@ void RankFields<Real, U>::spoil() {
   std::vector<unsigned char> first_lane(moved_.size(), 0);  // that this rank does not move
   for (const Joint& joint : cut_.joints())
     if (joint.near == ranks_->rank()) std::fill_n(first_lane.begin() + joint.slot / kLanes, joint.nodes, 1);
-  for (const TileStretch& stretch : halo())
-    std::fill(first_lane.begin() + cut_.first_group(stretch.first),
-              first_lane.begin() + cut_.first_group(stretch.last), kLanes);
+  cut_.for_groups(halo(), [&](std::int64_t first, std::int64_t last) {
+    std::fill(first_lane.begin() + first, first_lane.begin() + last, kLanes);
+  });
   for (std::int64_t group = 0; group < std::ssize(moved_); ++group) {
     if (owns(group)) continue;
     const int first = first_lane[index(group)];

@@ -47,9 +47,9 @@ SharedGroups::SharedGroups(const Model& model, const RankCut& cut)
 HeldGroups SharedGroups::held_by(int rank) const {
   HeldGroups held{all_ranks_, {}, {}};
   for (const auto* stretches : {&cut_->stretches(rank), &cut_->halo(rank)})
-    for (const TileStretch& stretch : *stretches)
-      std::fill(held.moved.begin() + cut_->first_group(stretch.first),
-                held.moved.begin() + cut_->first_group(stretch.last), 1);
+    cut_->for_groups(*stretches, [&](std::int64_t first, std::int64_t last) {
+      std::fill(held.moved.begin() + first, held.moved.begin() + last, 1);
+    });
   GroupMarks stations = held.moved;  // and, where tiles of others begin, one lane of theirs
   for (const Joint& joint : cut_->joints())
     if (joint.near == rank) std::fill_n(stations.begin() + joint.slot / kLanes, joint.nodes, 1);

@@ -99,7 +99,8 @@ void FieldCopy<Real>::take(ConstNodeField from, std::int64_t slots) {
 std::vector<Placement> resting_places(const Model& model) {
   std::vector<Placement> places(static_cast<std::size_t>(model.mesh.parts()));
   const double height = model.contact ? model.contact->touching_height() : 0;
-  for (const int b : model.wheel_parts()) places[static_cast<std::size_t>(b)].origin = {model.scene.start_x(), 0, height};
+  for (const int b : model.wheel_parts())
+    places[static_cast<std::size_t>(b)].origin = {model.scene.start_x(), 0, height};
   return places;
 }
 

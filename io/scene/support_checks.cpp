@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "core/geometry/built_in_profiles.hpp"
 #include "io/scene/key.hpp"
@@ -43,18 +44,22 @@ double half_foot(const RailProfile& section) {
   return half;
 }
 
-/// The rail's built-in section, or the one that its own head stands on; none: a box, or a file's.
-std::optional<RailProfile> built_in_section(const RailSpec& rail) {
-  const std::string& name = rail.profile_y.empty() ? rail.profile : rail.section;
-  if (rail.profile == "box" || std::ranges::find(kBuiltInRails, name) == kBuiltInRails.end()) return {};
-  return built_in_rail(name);
-}
+/// The foot of a rail whose section is built in.
+struct RailFoot {
+  std::string section;
+  double middle, half;  ///< of its width: y of the middle, where the rail leans about its crown [m]
+};
 
-/// y of the middle of the foot [m]: the rail leans about its crown. 0 where the section is not known.
-double foot_middle(const Scene& scene) {
-  if (scene.body_replacing("rail")) return 0;
-  const std::optional<RailProfile> section = built_in_section(*scene.rail);
-  return section ? section->height * std::sin(std::atan(scene.rail->inclination)) : 0;
+/// None where a body or a box is the rail.
+std::optional<RailFoot> rail_foot(const Scene& scene) {
+  const RailSpec& rail = *scene.rail;
+  const std::string& name = rail.profile_y.empty() ? rail.profile : rail.section;
+  if (scene.body_replacing("rail") || rail.profile == "box" ||
+      std::ranges::find(kBuiltInRails, name) == kBuiltInRails.end())
+    return {};
+  const RailProfile section = built_in_rail(name);
+  const double angle = std::atan(rail.inclination);
+  return RailFoot{name, section.height * std::sin(angle), half_foot(section) * std::cos(angle)};
 }
 
 /// The outer spring-dampers act on the foot and on the slab.
@@ -62,20 +67,16 @@ void check_widths(const Scene& scene, const FasteningSpec& fastenings, Require r
   const RailSpec& rail = *scene.rail;
   if (scene.body_replacing("rail")) return;
   const double outermost = fastenings.row_offset(fastenings.rows - 1);
-  const double middle = foot_middle(scene);
-  if (rail.profile != "box") {
-    const bool own_head = !rail.profile_y.empty();
-    const std::string& name = own_head ? rail.section : rail.profile;
-    const std::optional<RailProfile> section = built_in_section(rail);
-    if (!section) return;
-    const double half = half_foot(*section) * std::cos(std::atan(rail.inclination));
+  const std::optional<RailFoot> foot = rail_foot(scene);
+  if (!foot && rail.profile != "box") return;
+  const double middle = foot ? foot->middle : 0;
+  if (foot)
     require(
-        outermost <= half + kLengthTolerance,
-        {"fastenings.pad_width", "fastenings.rows", own_head ? "rail.section" : "rail.profile"},
+        outermost <= foot->half + kLengthTolerance,
+        {"fastenings.pad_width", "fastenings.rows", rail.profile_y.empty() ? "rail.profile" : "rail.section"},
         fmt::format("the outer spring-dampers lie {:.4g} mm from the middle of the foot, half of which is "
                     "{:.4g} mm wide ({}); state a smaller fastenings.pad_width",
-                    1e3 * outermost, 1e3 * half, name));
-  }
+                    1e3 * outermost, 1e3 * foot->half, foot->section));
   if (!scene.slab_track) return;
   const SlabSpec& slab = *scene.slab_track;
   const double left = slab.offset - 0.5 * slab.width, right = slab.offset + 0.5 * slab.width;
@@ -96,7 +97,8 @@ void check_sleepers(const Scene& scene, const FasteningSpec& fastenings, Require
           {"sleepers.width", "fastenings.pad_length"}, "the pad is longer than the sleeper is wide");
   const double inner = sleepers.offset - 0.5 * sleepers.length;
   const double outer = sleepers.offset + 0.5 * sleepers.length;
-  const double outermost = fastenings.row_offset(fastenings.rows - 1), middle = foot_middle(scene);
+  const std::optional<RailFoot> foot = rail_foot(scene);
+  const double outermost = fastenings.row_offset(fastenings.rows - 1), middle = foot ? foot->middle : 0;
   require(middle - outermost >= inner - kLengthTolerance && middle + outermost <= outer + kLengthTolerance,
           {"sleepers.offset", "sleepers.length", "fastenings.pad_width", "fastenings.rows"},
           fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m: the fastenings' "

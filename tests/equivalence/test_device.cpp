@@ -20,7 +20,7 @@ namespace tread {
 namespace {
 
 using namespace samples;
-using Case = DeviceCase;
+using Case = PreloadedScene;
 
 /// Teams of few quads and tiles, some of them smaller than the others. `shared`: of each of the 3 to 7 teams
 /// of a patch [B].

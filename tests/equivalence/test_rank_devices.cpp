@@ -35,8 +35,8 @@ void expect_same_steps(const std::function<Scene(const std::string&)>& scene,
                        const std::vector<std::string>& precisions, std::int64_t steps) {
   for (const std::string& precision : precisions) {
     SCOPED_TRACE(precision);
-    const samples::RankCase of(scene(precision));
-    const auto start = of.start();
+    const samples::PreloadedScene of(scene(precision));
+    const auto start = of.start(nullptr);
     const samples::SharedRun two(of, *start, 2, {0.4, 0.6}, [] { return small_parts(0); });
     two.roll_on(steps);
     for (const int count : {3, 4, 7}) {
@@ -46,8 +46,7 @@ void expect_same_steps(const std::function<Scene(const std::string&)>& scene,
       EXPECT_EQ(samples::differences(two.front().state(), more.front().state()), "") << count << " ranks";
     }
     samples::roll_on(*start, steps);
-    const std::int64_t values = 3 * of.model().mesh.slots;
-    const samples::Apart apart = samples::apart(values, *start, two.front());
+    const samples::Apart apart = samples::apart(of.values(), *start, two.front());
     EXPECT_LT(apart.displacement, precision == "double" ? 1e-9 : 1e-5);
     if (precision != "double") continue;
     EXPECT_LT(apart.velocity, 1e-9);

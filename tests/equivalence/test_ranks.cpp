@@ -15,7 +15,7 @@ namespace {
 /// A scene on one process, and on several ranks from there on.
 class Case {
  public:
-  explicit Case(const Scene& scene) : of_(scene), one_(of_.start()) {}
+  explicit Case(const Scene& scene) : of_(scene), one_(of_.start(nullptr)) {}
 
   /// Steps on `count` ranks are those of one process; all fields are compared at these steps. `shares`: of
   /// the work, by rank; none: the expected ones.
@@ -34,7 +34,7 @@ class Case {
   }
 
  private:
-  samples::RankCase of_;
+  samples::PreloadedScene of_;
   std::unique_ptr<Simulation> one_;
 };
 

@@ -28,9 +28,9 @@ class Gpu : public testing::Test {
   template <class SceneOf>
   static void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::string& precision) {
     SCOPED_TRACE(precision);
-    DeviceCase exact(scene("double"));
+    PreloadedScene exact(scene("double"));
     const auto in_double = roll(exact.start(nullptr), steps);
-    DeviceCase at(scene(precision));
+    PreloadedScene at(scene(precision));
     const auto on_card = roll(at.start(open_gpu(0)), steps);
     const Apart error = expect_same_fields(*in_double, at, *on_card, precision);
     std::printf("%s: displacements differ by %.2g, velocities by %.2g of their range\n", precision.c_str(),
@@ -93,12 +93,12 @@ TEST_F(Gpu, WheelsetWithAVehicleOnASlab) {
 /// Two ranks that share the card.
 TEST_F(Gpu, RanksWithADeviceEach) {
   for (const std::string precision : {"double", "mixed"}) {
-    const RankCase of(tyre(corrugated(kTraction))(precision));
-    const auto one = of.start();
+    const PreloadedScene of(tyre(corrugated(kTraction))(precision));
+    const auto one = of.start(nullptr);
     const SharedRun two(of, *one, 2, {0.4, 0.6}, [] { return open_gpu(0); });
     two.roll_on(300);
     roll_on(*one, 300);
-    const Apart error = apart(3 * of.model().mesh.slots, *one, two.front());
+    const Apart error = apart(of.values(), *one, two.front());
     EXPECT_LT(error.displacement, precision == "double" ? 1e-9 : 1e-5);
     if (precision == "double") {
       EXPECT_LT(error.velocity, 1e-9);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -185,16 +186,22 @@ TEST(CurveThrough, RefusesTablesThatAreNotProfiles) {
   EXPECT_THROW(crowned(0.06, 0.02), InputError);
 }
 
+/// Table of y and z over the head of a rail, shifted.
+std::pair<std::vector<double>, std::vector<double>> sampled_head(const RailProfile& rail, Point2 shift) {
+  std::vector<double> y, z;
+  const double length = rail.running.length();
+  const double start = rail.running.at_x(-35.3 * mm), end = length - start;
+  for (int i = 0; i <= 300; ++i) {
+    const Point2 p = rail.running.at(start + (end - start) * i / 300).position;
+    y.push_back(p.x + shift.x);
+    z.push_back(p.y + shift.y);
+  }
+  return {y, z};
+}
+
 TEST(RailWithHead, RecoversTheProfileItWasSampledFrom) {
   const RailProfile exact = cn60();
-  std::vector<double> y, z;
-  const double length = exact.running.length();
-  const double start = exact.running.at_x(-35.3 * mm), end = length - start;
-  for (int i = 0; i <= 300; ++i) {
-    const Point2 p = exact.running.at(start + (end - start) * i / 300).position;
-    y.push_back(p.x);
-    z.push_back(p.y + 0.5);
-  }
+  const auto [y, z] = sampled_head(exact, {0, 0.5});
   const RailProfile rail = rail_with_head(y, z, cn60());
   for (double at = -35 * mm; at < 35 * mm; at += 0.1 * mm)
     EXPECT_NEAR(rail.running.at(rail.running.at_x(at)).position.y,
@@ -202,15 +209,7 @@ TEST(RailWithHead, RecoversTheProfileItWasSampledFrom) {
 }
 
 TEST(RailWithHead, SuggestsTheShiftInPlaceOfTheStatedOne) {
-  const RailProfile exact = cn60();
-  std::vector<double> y, z;
-  const double length = exact.running.length();
-  const double start = exact.running.at_x(-35.3 * mm), end = length - start;
-  for (int i = 0; i <= 300; ++i) {
-    const Point2 p = exact.running.at(start + (end - start) * i / 300).position;
-    y.push_back(p.x + 5 * mm);
-    z.push_back(p.y);
-  }
+  const auto [y, z] = sampled_head(cn60(), {5 * mm, 0});
   try {
     rail_with_head(y, z, cn60(), 2 * mm);
     FAIL();
