@@ -12,13 +12,26 @@
 
 namespace tread {
 
-/// Calls that a rank has made for steps.
+/// Calls that a rank has made.
 struct RankTraffic {
   std::int64_t waits = 0;     ///< number of calls
   std::int64_t sent = 0;      ///< [B]
   std::int64_t received = 0;  ///< [B]
   double seconds = 0;         ///< time in the calls [s]
   double beside = 0;          ///< of it, in receive(), while the rank's other threads go on [s]
+
+  RankTraffic& operator+=(const RankTraffic& more) {
+    waits += more.waits;
+    sent += more.sent;
+    received += more.received;
+    seconds += more.seconds;
+    beside += more.beside;
+    return *this;
+  }
+  friend RankTraffic operator-(const RankTraffic& a, const RankTraffic& b) {
+    return {a.waits - b.waits, a.sent - b.sent, a.received - b.received, a.seconds - b.seconds,
+            a.beside - b.beside};
+  }
 };
 
 /// Bytes that go to another rank or come from it.

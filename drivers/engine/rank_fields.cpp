@@ -306,8 +306,10 @@ void RankFields<Real, U>::move_with_contact(const StepLoads& loads, double time)
   this->internal().move({near_, elsewhere_, columns, search, then}, this->update(), loads,
                         this->force_fields());
   exchange_other_forces();
-  if (!solves()) patch_motion_.unpack(this->u().data(), this->v().data());
   beside_ = true;
+  if (solves()) return;
+  patch_motion_.unpack(this->u().data(), this->v().data());
+  contact_elsewhere_->resolve();
 }
 
 template <class Real, class U>

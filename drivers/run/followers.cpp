@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <exception>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -129,11 +130,14 @@ class FollowedRun {
   }
 
  private:
-  /// Every rank meets a numerical error in the same step; rank 0 reports it and ends all.
+  /// Every rank meets a numerical error in the same step; rank 0 reports it and ends all. If it goes on, it
+  /// has met none.
   void step() {
+    if (error_) std::rethrow_exception(error_);
     try {
       simulation_->step();
     } catch (const NumericalError&) {
+      error_ = std::current_exception();
     }
   }
 
@@ -142,6 +146,7 @@ class FollowedRun {
   RunResults results_;
   std::optional<Model> model_;
   std::optional<Simulation> simulation_;
+  std::exception_ptr error_;  ///< of the last step
 };
 
 /// Until a word that is not about the run.
@@ -173,7 +178,9 @@ void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOpt
 void Followers::step(Simulation& simulation) {
   if (absent()) return simulation.step();
   say(*ranks_, Word::step);
+  const RankTraffic before = ranks_->traffic;
   clock_.time(*ranks_, [&] { simulation.step(); });
+  traffic_ += ranks_->traffic - before;
 }
 
 bool Followers::find_better_shares(double left) {
@@ -216,12 +223,11 @@ std::string Followers::shares() const {
 std::string Followers::description(std::int64_t steps) const {
   std::string text = fmt::format("{} ranks, threads of each: {}", ranks_->count(), threads());
   if (steps == 0) return text;
-  const RankTraffic& traffic = ranks_->traffic;
   const auto per_step = [steps](auto sum) { return static_cast<double>(sum) / static_cast<double>(steps); };
   return text +
          fmt::format("; in a step rank 0 sends {:.0f} B, receives {:.0f} B, waits {:.2f} times, {:.1f} us",
-                     per_step(traffic.sent), per_step(traffic.received), per_step(traffic.waits),
-                     1e6 * per_step(traffic.seconds));
+                     per_step(traffic_.sent), per_step(traffic_.received), per_step(traffic_.waits),
+                     1e6 * per_step(traffic_.seconds));
 }
 
 void follow(Ranks& ranks) {

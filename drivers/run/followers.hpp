@@ -43,6 +43,7 @@ class Followers {
  private:
   std::shared_ptr<Ranks> ranks_;
   RankClock clock_;
+  RankTraffic traffic_;                ///< of rank 0's steps
   std::int64_t interval_ = 1000;       ///< steps until ranks compare their times
   std::optional<TimedShares> before_;  ///< that those of now are to better, by a step's time
   double begin_seconds_ = 0;           ///< that the last begin() took [s]

@@ -109,6 +109,13 @@ TEST(Ranks, OtherSharesOnTheWay) {
   }
 }
 
+/// Between two looks at the energies the wheel leaves the points of the last one behind.
+TEST(Ranks, FastWheelOnLargeElements) {
+  expect_same_bits(tyre("double", {"scene.element_size=20 mm", "motion.speed=1000 km/h",
+                                   "solution_zone.length=0.1 m", "rail.length=1 m", "rail.origin=0.2 m"}),
+                   {1, 140});
+}
+
 /// A tile more or less for a rank does not show, and ranks without a tile are idle.
 TEST(Ranks, MoreRanksThanTiles) {
   Case of(tyre("double", {"scene.element_size=20 mm"}));
