@@ -5,13 +5,16 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/limits.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
+#include "drivers/bench/measurement.hpp"
 #include "drivers/bench/rolling_scene.hpp"
+#include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 #include "kernels/blocks/internal_force.hpp"
@@ -32,18 +35,23 @@ struct StepTimes {
   double busy = 0;      ///< core-time of all threads within bodies
 };
 
-StepTimes time_steps(const std::function<void()>& step, const MeasurementPlan& plan) {
+StepTimes time_steps(const TimedCall& step, const MeasurementPlan& plan) {
   ParallelTimes times;
   StepTimes result;
   std::int64_t calls = 0;
   measure_parallel(&times);
   const auto timed_step = [&] {
     const auto start = std::chrono::steady_clock::now();
-    step();
+    step.call();
     result.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++calls;
   };
-  result.measured = measure({timed_step}, plan);
+  const auto reset = [&] {
+    measure_parallel(nullptr);
+    step.reset();
+    measure_parallel(&times);
+  };
+  result.measured = measure({timed_step, step.reset ? reset : std::function<void()>()}, plan);
   measure_parallel(nullptr);
   result.wall /= static_cast<double>(calls);
   result.parallel = times.wall / static_cast<double>(calls);
@@ -74,10 +82,10 @@ struct ScalingRow {
   double lost_slower() const { return (step.busy - growth() * one.parallel) / core_time(); }
 };
 
-/// Makes, for a mesh of so many elements, a function that does one step with all threads.
-using StepMaker = std::function<std::function<void()>(std::int64_t elements)>;
+/// Makes, for a mesh of so many elements, a call that does one step with all threads.
+using StepMaker = std::function<TimedCall(std::int64_t elements)>;
 
-std::function<void()> made_up_step(std::int64_t elements) {
+TimedCall made_up_step(std::int64_t elements) {
   struct Data {
     explicit Data(std::int64_t count)
         : mesh(made_up_mesh(Sweep::extruded, false, count)),
@@ -93,13 +101,13 @@ std::function<void()> made_up_step(std::int64_t elements) {
     TimeUpdate update;
   };
   const auto data = std::make_shared<Data>(elements);
-  return [data] {
+  return {[data] {
     StepLoads loads;
     loads.dt = 1e-10;  // far below the stable step: the data stay bounded
     data->internal.move(data->update, loads, {data->u.data(), data->v.data(), data->f.data()});
     data->update.move_rest(loads, {data->u.data(), data->v.data(), data->f.data()},
                            data->internal.unmoved_tiles());
-  };
+  }};
 }
 
 /// Rows for one to `most` threads of every backend. All backends share the first row: one thread needs no
@@ -204,9 +212,16 @@ void bench_scaling(const ResolvedScene& resolved, const BenchScalingOptions& opt
   Scaling scaling(options);
   const Progress progress(options.json);
   const RollingScene scene(resolved, progress);
-  const auto simulation = std::make_shared<Simulation>(scene.start());
-  scaling.measure_kind("strong", scene.model().elements(),
-                       [&](std::int64_t) { return [simulation] { simulation->step(); }; });
+  const std::int64_t all = step_count(resolved.scene, scene.dt());
+  std::optional<Simulation> simulation(scene.start());
+  const auto start_anew = [&] {
+    if (simulation->steps() < all) return;
+    simulation.reset();  // one at a time
+    simulation.emplace(scene.start());
+  };
+  scaling.measure_kind("strong", scene.model().elements(), [&](std::int64_t) {
+    return TimedCall{[&] { simulation->step(); }, start_anew};
+  });
   scaling.print();
 }
 
