@@ -56,8 +56,10 @@ duration = "{duration} s"
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 
-/// The modes of the rail, each by the amplitude of its cosine after a blow on the left end.
-std::vector<Mode> rail_modes(const Scene& scene, int count, const ProgressText& progress) {
+/// The modes of the rail, each by the amplitude of its cosine after a blow on the left end, from half to
+/// twice the beam's frequency.
+std::vector<Mode> rail_modes(const Scene& scene, const BeamProperties& beam, int count,
+                             const ProgressText& progress) {
   constexpr double kInterval = 2e-5;  // time between samples [s]
   Model model(scene);
   const RailAxis axis(model);
@@ -79,10 +81,23 @@ std::vector<Mode> rail_modes(const Scene& scene, int count, const ProgressText& 
   };
   run_blow(model, kInterval, sample, progress);
   std::vector<Mode> modes;
-  for (int n = 1; n <= count; ++n)
-    modes.push_back({n * std::numbers::pi / length,
-                     harmonic_frequency(amplitudes[static_cast<std::size_t>(n - 1)], kInterval, 20, 8000)});
+  for (int n = 1; n <= count; ++n) {
+    const double wave = n * std::numbers::pi / length;
+    const double theory = wave_frequency(beam, wave);
+    modes.push_back({wave, harmonic_frequency(amplitudes[static_cast<std::size_t>(n - 1)], kInterval,
+                                              0.5 * theory, 2 * theory)});
+  }
   return modes;
+}
+
+/// Throws InputError where the observed time is too short to tell the frequency of the rail's first mode.
+void require_half_a_period(const VerifyInputs& inputs, const BeamProperties& beam) {
+  const double half = 0.5 / wave_frequency(beam, std::numbers::pi / inputs["length"]);
+  if (inputs["duration"] >= half) return;
+  throw InputError(fmt::format(
+      "verify: duration = {:.3g} ms is shorter than half a period, {:.3g} ms, of the first mode of "
+      "a rail of length = {:g} m; state a longer duration or a shorter rail",
+      1e3 * inputs["duration"], 1e3 * half, inputs["length"]));
 }
 
 Figure dispersion_figure(const std::vector<Mode>& modes, const BeamProperties& beam,
@@ -123,8 +138,9 @@ CaseResult rail_waves(const VerifyInputs& inputs, const ProgressText& progress) 
   if (count < 2)
     throw InputError(fmt::format("verify: length = {:g} m holds no wave up to {:g} Hz; state a longer rail",
                                  inputs["length"], highest));
-  const std::vector<Mode> modes = rail_modes(scene, count, progress);
-  const std::vector<Mode> coarse = rail_modes(free_rail(inputs, 1.5 * h), count, progress);
+  require_half_a_period(inputs, beam);
+  const std::vector<Mode> modes = rail_modes(scene, beam, count, progress);
+  const std::vector<Mode> coarse = rail_modes(free_rail(inputs, 1.5 * h), beam, count, progress);
 
   CaseResult result;
   double worst = 0;

@@ -33,6 +33,16 @@ TEST(VerifyInputs, ThatLeaveNoPlaceOfTheProfilesAreRefused) {
             offsets + "first = 6 mm and last = 2 mm" + advice);
 }
 
+TEST(VerifyInputs, ThatTheModelCannotShowAreRefused) {
+  const std::string brief = refusal("rail_waves", {"length=10 m"});
+  EXPECT_TRUE(brief.starts_with("verify: duration = 20 ms is shorter than half a period, 96.")) << brief;
+  EXPECT_TRUE(brief.ends_with(" of length = 10 m; state a longer duration or a shorter rail")) << brief;
+  EXPECT_EQ(
+      refusal("contact_filter", {"wavelength=10 mm"}),
+      "verify: at depth = 0.14 mm and wavelength = 10 mm the wheel in a trough touches further waves, which "
+      "the finite elements do not have; state a longer wavelength or a smaller depth or load");
+}
+
 TEST(VerifyInputs, ThatMakeTheReferenceZeroAreRefused) {
   EXPECT_EQ(refusal("carter", {"exploitation=0"}), "verify: exploitation is zero: no traction to compare");
   EXPECT_EQ(refusal("steady_rolling", {"mu=0"}),

@@ -312,6 +312,41 @@ TEST(Multibody, AnUnstableStepIsAnError) {
   EXPECT_THROW(run_multibody(model, {std::nullopt, 8 * stable}), InputError);
 }
 
+TEST(Multibody, StepIsAtMostAFortiethOfTheShortestWavesPassing) {
+  MultibodyModel model = multibody_model(scene(300, ""), BeamTheory::euler);
+  const ModalTrack track = modal_track(model, 20);
+  const auto step = [&] { return chosen_step(track, model, model.speed); };
+  EXPECT_EQ(step(), passage_step(track, model.vehicle));
+  CorrugationSpec& corrugation = model.scene.corrugation.emplace();
+  const auto expect_wave = [&](double wave) { EXPECT_NEAR(40 * model.speed * step(), wave, 1e-12); };
+  expect_wave(corrugation.wavelength);
+  corrugation.kind = "random";
+  expect_wave(corrugation.shortest);
+  corrugation.kind = "table";
+  corrugation.table_x = {0, 0.002, 0.005, 0.012};
+  expect_wave(20 * 0.004);
+  model.scene.corrugation.reset();
+  SurfaceSpec& surface = model.scene.surfaces["any"];
+  expect_wave(surface.length);
+  surface.kind = "waves";
+  surface.wavelength = 0.03;
+  expect_wave(surface.wavelength);
+  surface.kind = "polygon";
+  surface.order = 40;
+  expect_wave(std::numbers::pi * model.scene.wheel->diameter / 40);
+  surface.kind = "profile";
+  surface.file_x = {0, 0.001, 0.003};
+  expect_wave(20 * 0.0015);
+}
+
+TEST(Multibody, StartsInTheFirstSpanBeyondTheRailsEnd) {
+  Scene dense = scene(300, kCorrugationD);
+  const auto start = [&] { return multibody_model(dense, BeamTheory::euler).start + dense.rail->origin; };
+  EXPECT_DOUBLE_EQ(start(), dense.fastenings->first + 0.5 * dense.fastenings->spacing);
+  dense.fastenings->spacing = 0.3;
+  EXPECT_DOUBLE_EQ(start(), dense.fastenings->first + 1.5 * 0.3);
+}
+
 TEST(Multibody, ScenesWithoutItsPartsAreRefused) {
   Scene rigid = scene(300, "");
   rigid.fastenings.reset();

@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/studies/multibody/multibody_study.hpp"
 #include "drivers/studies/multibody/response_map.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
@@ -81,6 +86,25 @@ TEST(Calibration, RefusesAnotherTrackOrVehicle) {
   }
 }
 
+TEST(Calibration, RefusesAnotherWheelContactOrSurface) {
+  using Change = void (*)(Scene&);
+  for (const auto& [change, text] : std::initializer_list<std::pair<Change, const char*>>{
+           {[](Scene& scene) { scene.wheel->diameter *= 1.05; }, "the wheel's diameter is 0.86 m here"},
+           {[](Scene& scene) { scene.wheel->lateral_offset = 3e-3; }, "the contact's C is "},
+           {[](Scene& scene) { scene.corrugation->centre = 15e-3; }, "the corrugations' depths differ by"},
+           {[](Scene& scene) { scene.surfaces["weld"].at = 1; },
+            "the surfaces' depths differ by up to 1 mm"}}) {
+    TransientRun run = run_with(1);
+    change(run.scene);
+    try {
+      calibrate(model_of(300, 80), run, kQuick);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Calibration, RollsAsFastAsTheRun) {
   // Traction has made the run's wheel 5 % faster than its scene says.
   TransientRun run = run_with(0.62, 315);
@@ -108,6 +132,30 @@ TEST(ResponseMap, AxesAreParsed) {
                                              {"speed=100:500:0.001km/h", "wavelength=40:150:0.1mm"},
                                              {"speed=100:x:1km/h", "wavelength=40:150:2mm"}})
     EXPECT_THROW(parse_map_axes(wrong), InputError) << wrong[0] << " " << wrong[1];
+}
+
+TEST(ResponseMap, AxesWavesAndDotsAreReadBeforeAnyPassage) {
+  const auto refusal = [](const std::string& corrugation, const std::vector<std::string>& map) {
+    MultibodyOptions options;
+    options.map = map;
+    options.dots = {"no/run"};
+    options.step = "1 s";  // the first passage refuses it
+    options.quiet = true;
+    const std::string text = "[scene]\nbased_on = \"highspeed-slab-2014\"\n[motion]\nspeed = \"300 km/h\"\n";
+    try {
+      run_multibody_study(resolve_scene(SceneSource{"test", text + corrugation, {}}), options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const char* const sine = "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.1 mm\"\n";
+  const std::string speed = "speed=200:300:50km/h";
+  EXPECT_TRUE(refusal(sine, {speed}).starts_with("--map speed=200:300:50km/h: it takes both"));
+  EXPECT_TRUE(
+      refusal(sine, {speed, "wavelength=600:800:200mm"}).starts_with("--map: no whole wave of 800 mm "));
+  EXPECT_TRUE(refusal("", {speed, "wavelength=60:80:20mm"}).starts_with("--map: the scene needs "));
+  EXPECT_NE(refusal(sine, {speed, "wavelength=60:80:20mm"}).find("no/run"), std::string::npos);
 }
 
 TEST(ResponseMap, PointsAreThoseOfSinglePassages) {

@@ -1,6 +1,7 @@
 // The solid rail, the modal wheel and the pressed sine of the multi-body model against closed forms, the
 // harmonics' receptance and finer meshes.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -237,6 +238,26 @@ TEST(SineContact, AgreesWithFilterAndTracedWheel) {
   EXPECT_EQ(model.relief(model.corrugation.first() - 0.01).at(s), 0);
   MultibodyModel smooth = multibody_model(scene(""), BeamTheory::euler);
   EXPECT_THROW(use_half_space_contact(smooth), InputError);
+}
+
+TEST(SineContact, FollowsTheCorrugationsCentre) {
+  const auto with_centre = [](double millimetres) {
+    MultibodyModel model = multibody_model(
+        scene(kCorrugationD + fmt::format("centre = \"{} mm\"\n", millimetres)), BeamTheory::euler);
+    use_half_space_contact(model);
+    return model;
+  };
+  // Beside the waves the wheel rolls on the smooth rail.
+  const MultibodyModel beside = with_centre(60);
+  EXPECT_EQ(beside.roughness(2.44), 0);
+  EXPECT_EQ(beside.relief(2.44).at(std::pow(beside.vehicle.load(), 2.0 / 3)), 0);
+  // Without load the wheel in a trough stands where the slopes across of wheel and rail are the same.
+  const MultibodyModel aside = with_centre(15);
+  const CorrugationSpec& sine = *aside.scene.corrugation;
+  const double bend = 2 * sine.depth / (sine.width * sine.width);
+  const double slope = bend * (aside.corrugation.centre() - aside.contact_y);
+  const double rise = 0.5 * slope * slope / (1 / aside.radius_y - bend);
+  EXPECT_NEAR(aside.relief(2.44).at(0), -rise, 0.02 * rise);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
+#include "drivers/studies/multibody/model_difference.hpp"
 #include "io/files/history_reader.hpp"
 #include "io/scene/scene_reader.hpp"
 
@@ -91,6 +92,7 @@ void require_same_passage(const MultibodyModel& model, const TransientRun& run) 
   const MultibodyModel theirs = multibody_model(run.scene, model.theory);
   std::string apart = track_difference(model, theirs);
   if (apart.empty()) apart = corrugation_difference(model, theirs);
+  if (apart.empty()) apart = surface_difference(model, theirs);
   const double ours = model.scene.motion->speed;
   if (apart.empty() && std::abs(ours - theirs.speed) > 1e-6 * ours)
     apart = fmt::format("motion.speed is {:.6g} m/s here and {:.6g} m/s there", ours, theirs.speed);

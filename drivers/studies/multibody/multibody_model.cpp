@@ -57,18 +57,14 @@ BeamVehicle lumped_vehicle(const Scene& scene) {
   return vehicle;
 }
 
-/// Corrugation as the scene states it.
-Corrugation stated_corrugation(const MultibodyModel& model) {
-  const auto& spec = model.scene.corrugation;
-  return spec ? corrugation_of(*spec, spec->centre.value_or(model.contact_y)) : Corrugation{};
-}
-
-/// Sentence on the difference of two values; empty if they are equal.
-std::string difference(const char* name, const char* unit, double here, double there) {
-  constexpr double kRounding = 1e-6;
-  constexpr double kNothing = 1e-9;  // smallest difference in any of the units
-  if (std::abs(here - there) <= std::max(kNothing, kRounding * std::abs(here))) return "";
-  return fmt::format("{} is {:.6g}{} here and {:.6g}{} there", name, here, unit, there, unit);
+/// Place at which the wheel stands at first [m]: the scene's, or the middle of the first span that is far
+/// enough from the rail's left end.
+double first_place(const Scene& scene) {
+  if (scene.start() == "rigid") return scene.start_x();
+  const double left = -scene.rail->origin;
+  double middle = left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
+  while (middle < left + kEndOfRail) middle += scene.fastenings->spacing;
+  return middle;
 }
 
 }  // namespace
@@ -86,10 +82,13 @@ const char* name_of(BeamTheory theory) {
   }
 }
 
+double MultibodyModel::surface_depth(double x, double y) const {
+  if (rail_surface.smooth() && wheel_surface.smooth()) return 0;
+  return traced_depth(rail_surface, wheel_surface, 0.5 * scene.wheel->diameter, x, y);
+}
+
 double MultibodyModel::roughness(double x) const {
-  const double depth = corrugation.depth(x, contact_y);
-  if (rail_surface.smooth() && wheel_surface.smooth()) return depth;
-  return depth + traced_depth(rail_surface, wheel_surface, 0.5 * scene.wheel->diameter, x, contact_y);
+  return corrugation.depth(x, contact_y) + surface_depth(x, contact_y);
 }
 
 ContactRelief MultibodyModel::relief(double x) const {
@@ -110,6 +109,11 @@ ModalWheel MultibodyModel::wheel_at(double at_speed) const {
 
 double MultibodyModel::contact_stiffness() const {
   return 1.5 * vehicle.contact * std::cbrt(vehicle.load() / vehicle.contact);
+}
+
+Corrugation stated_corrugation(const MultibodyModel& model) {
+  const auto& spec = model.scene.corrugation;
+  return spec ? corrugation_of(*spec, spec->centre.value_or(model.contact_y)) : Corrugation{};
 }
 
 MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
@@ -144,10 +148,9 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.rail_surface = rail_surface(scene);
   model.wheel_surface = wheel_surface(scene);
   model.speed = scene.motion->speed;
-  const double left = -scene.rail->origin;
-  model.start = scene.start() == "rigid" ? scene.start_x()
-                                         : left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
+  model.start = first_place(scene);
   model.end = std::max(evaluated_stretch(scene, model.corrugation).last, model.corrugation.last()) + kBeyond;
+  const double left = -scene.rail->origin;
   const double last = left + scene.rail->length - kEndOfRail;
   if (model.start < left + kEndOfRail || model.end > last || model.start >= model.end)
     throw InputError(
@@ -156,76 +159,6 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
                     "{:.3f} m; state a longer rail.length or another rail.origin",
                     model.start, model.end, left + kEndOfRail, last));
   return model;
-}
-
-std::string track_difference(const MultibodyModel& here, const MultibodyModel& there) {
-  std::string first;
-  const auto compare = [&](const char* name, const char* unit, double ours, double theirs) {
-    if (first.empty()) first = difference(name, unit, ours, theirs);
-  };
-  compare("the wheel load", " N", here.vehicle.load(), there.vehicle.load());
-  compare("the unsprung mass", " kg", here.vehicle.unsprung_mass, there.vehicle.unsprung_mass);
-  compare("the sprung mass", " kg", here.vehicle.sprung_mass, there.vehicle.sprung_mass);
-  compare("the suspension's stiffness", " N/m", here.vehicle.stiffness, there.vehicle.stiffness);
-  compare("the suspension's damping", " N s/m", here.vehicle.damping, there.vehicle.damping);
-  compare("the rail's E I", " N m2", here.rail.bending_stiffness, there.rail.bending_stiffness);
-  compare("the rail's kappa G A", " N", here.rail.shear_stiffness, there.rail.shear_stiffness);
-  compare("the rail's mass", " kg/m", here.rail.mass, there.rail.mass);
-  const auto compare_number = [&](const char* name, const auto& ours, const auto& theirs) {
-    compare(name, "", static_cast<double>(ours.size()), static_cast<double>(theirs.size()));
-  };
-  const auto compare_each = [](const auto& ours, const auto& theirs, const auto& one) {
-    for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i) one(ours[i], theirs[i]);
-  };
-  compare_number("the number of the fastenings' spring-dampers along the rail", here.supports,
-                 there.supports);
-  compare_each(here.supports, there.supports, [&](const BeamSupport& ours, const BeamSupport& theirs) {
-    compare("a spring-damper's x", " m", ours.x, theirs.x);
-    compare("a spring-damper's stiffness", " N/m", ours.stiffness, theirs.stiffness);
-    compare("a spring-damper's damping", " N s/m", ours.damping, theirs.damping);
-  });
-  compare_number("the number of sleepers", here.sleepers, there.sleepers);
-  compare_each(here.sleepers, there.sleepers, [&](const SleeperSupport& ours, const SleeperSupport& theirs) {
-    compare("a sleeper's x", " m", ours.x, theirs.x);
-    compare("a pad's stiffness", " N/m", ours.stiffness, theirs.stiffness);
-    compare("a pad's damping", " N s/m", ours.damping, theirs.damping);
-    compare_number("the number of spring-dampers of a pad", ours.columns, theirs.columns);
-    compare_each(ours.columns, theirs.columns, [&](double ours_at, double theirs_at) {
-      compare("a spring-damper's place on its pad", " m", ours_at, theirs_at);
-    });
-    compare("a sleeper's mass", " kg", ours.sleeper.mass, theirs.sleeper.mass);
-    compare("a bed's stiffness", " N/m", ours.sleeper.stiffness, theirs.sleeper.stiffness);
-    compare("a bed's damping", " N s/m", ours.sleeper.damping, theirs.sleeper.damping);
-  });
-  compare_number("the number of places where the foot is held along x", here.foot_holds, there.foot_holds);
-  compare_number("the number of the foot's springs along x", here.foot_supports, there.foot_supports);
-  compare_each(here.foot_supports, there.foot_supports,
-               [&](const BeamSupport& ours, const BeamSupport& theirs) {
-                 compare("a fastening's stiffness along x", " N/m", ours.stiffness, theirs.stiffness);
-                 compare("a fastening's damping along x", " N s/m", ours.damping, theirs.damping);
-               });
-  return first;
-}
-
-std::string corrugation_difference(const MultibodyModel& here, const MultibodyModel& there) {
-  const Corrugation ours = stated_corrugation(here);
-  const Corrugation theirs = stated_corrugation(there);
-  if (ours.smooth() && theirs.smooth()) return "";
-  for (const std::string& apart : {difference("the corrugation's start", " m", ours.first(), theirs.first()),
-                                   difference("the corrugation's end", " m", ours.last(), theirs.last())})
-    if (!apart.empty()) return apart;
-  constexpr int kPlaces = 1000;
-  constexpr double kSame = 0.01;  // share of the largest depth: the mesh slightly affects the contact's place
-  double deepest = 0;
-  double apart = 0;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double x = ours.first() + (ours.last() - ours.first()) * i / kPlaces;
-    const double depth = ours.depth(x, ours.centre());
-    deepest = std::max(deepest, std::abs(depth));
-    apart = std::max(apart, std::abs(depth - theirs.depth(x, theirs.centre())));
-  }
-  if (apart <= kSame * deepest) return "";
-  return fmt::format("the corrugations' depths differ by up to {:.3g} mm", 1e3 * apart);
 }
 
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength) {

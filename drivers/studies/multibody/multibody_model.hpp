@@ -48,6 +48,8 @@ struct MultibodyModel {
   /// Depth that the wheel follows at x [m]: the corrugation's, and of the other depths the highest places
   /// that a round wheel rolls on.
   double roughness(double x) const;
+  /// Depth of the surfaces besides the corrugation that the wheel follows at x, at y across [m].
+  double surface_depth(double x, double y) const;
   /// Relief of a sine at x; none without use_half_space_contact.
   ContactRelief relief(double x) const;
   /// The wheel as it spins at a speed [m/s].
@@ -57,17 +59,13 @@ struct MultibodyModel {
 };
 
 /// Model of a half wheelset over a rail on fastenings, over the corrugation or the solution zone, whatever
-/// the scene's duration. The wheel starts in the middle of the first span unless motion.start is "rigid"
-/// (then at Scene::start_x()). Slab and mortar are rigid; sleepers are rigid bodies on their beds. Throws
-/// InputError for scenes that lack a part or whose rail is too short.
+/// the scene's duration. The wheel starts in the middle of the first span that is at least 0.3 m from the
+/// rail's end, or, where motion.start is "rigid", at Scene::start_x(). Slab and mortar are rigid; sleepers
+/// are rigid bodies on their beds. Throws InputError for scenes that lack a part or whose rail is too short.
 MultibodyModel multibody_model(const Scene& scene, BeamTheory theory);
 
-/// First difference of vehicle, rail and fastenings, such as "the wheel load is 87560 N here and 70000 N
-/// there"; empty if there is none.
-std::string track_difference(const MultibodyModel& here, const MultibodyModel& there);
-
-/// First difference of the corrugations as the scenes state them, before any filter; empty if there is none.
-std::string corrugation_difference(const MultibodyModel& here, const MultibodyModel& there);
+/// Corrugation as the model's scene states it, before any filter.
+Corrugation stated_corrugation(const MultibodyModel& model);
 
 /// The model's corrugation with another wavelength [m]. Throws InputError without a sine.
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -13,9 +14,38 @@ namespace tread {
 
 namespace {
 
+/// Wavelength of a sine [m]; 0 without one.
 double wavelength_of(const MultibodyModel& model) {
   const auto& spec = model.scene.corrugation;
   return spec && spec->kind == "sine" ? spec->wavelength : 0;
+}
+
+/// Shortest wave that depths at these places show in full [m].
+double shortest_measured(const std::vector<double>& x) {
+  constexpr double kPlacesOfAWave = 20;  // as in random roughness
+  return kPlacesOfAWave * (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+}
+
+/// Shortest wave of a corrugation [m].
+double shortest_of(const CorrugationSpec& spec) {
+  if (spec.in_file()) return shortest_measured(spec.table_x);
+  return spec.kind == "random" ? spec.shortest : spec.wavelength;
+}
+
+/// The same of a surface; `diameter`: of the wheel [m].
+double shortest_of(const SurfaceSpec& spec, double diameter) {
+  if (spec.kind == "profile" || spec.kind == "map") return shortest_measured(spec.file_x);
+  if (spec.kind == "waves") return spec.wavelength;
+  return spec.kind == "polygon" ? std::numbers::pi * diameter / spec.order : spec.length;
+}
+
+/// Shortest wave of corrugation and surfaces [m]; infinite where rail and wheel are smooth.
+double shortest_wave(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  if (scene.corrugation) shortest = shortest_of(*scene.corrugation);
+  for (const auto& [name, surface] : scene.surfaces)
+    shortest = std::min(shortest, shortest_of(surface, scene.wheel->diameter));
+  return shortest;
 }
 
 void evaluate(const MultibodyModel& model, MultibodyResult& r) {
@@ -67,10 +97,10 @@ double mean_shift(const std::vector<CrestPeak>& peaks) {
   return peaks.empty() ? 0 : sum / static_cast<double>(peaks.size());
 }
 
-double chosen_step(const ModalTrack& track, const MultibodyModel& model, double speed, double wavelength) {
+double chosen_step(const ModalTrack& track, const MultibodyModel& model, double speed) {
   constexpr double kOfAWave = 40;
-  const double stable = passage_step(track, model.vehicle, model.wheel);
-  return wavelength > 0 ? std::min(stable, wavelength / speed / kOfAWave) : stable;
+  return std::min(passage_step(track, model.vehicle, model.wheel),
+                  shortest_wave(model.scene) / speed / kOfAWave);
 }
 
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step) {
@@ -82,7 +112,7 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
                                  *step.step, longest, track.modes()));
   MultibodyResult r;
   r.modes = track.modes();
-  r.dt = step.step.value_or(chosen_step(track, model, model.speed, wavelength_of(model)));
+  r.dt = step.step.value_or(chosen_step(track, model, model.speed));
   const ModalWheel wheel = model.wheel_at(model.speed);
   r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt, wheel).rail();
   ModalPassage passage(track, model.vehicle, model.start, r.dt, wheel);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -74,6 +75,13 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
   const MultibodyStep step = step_of(options);
   MultibodyOutcome outcome;
   outcome.model = multibody_model(resolved.scene, theory_of(options.beam));
+  std::optional<MapAxes> axes;
+  if (!options.map.empty()) {
+    axes = parse_map_axes(options.map);
+    require_whole_waves(outcome.model, *axes);
+    for (const std::filesystem::path& run : options.dots)
+      outcome.dots.push_back(map_dot(outcome.model, read_transient_run(run)));
+  }
   if (options.beam == "solid") use_solid_rail(outcome.model);
   if (options.wheel == "modal") use_modal_wheel(outcome.model);
   if (options.contact == "half-space") use_half_space_contact(outcome.model);
@@ -89,11 +97,8 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
     progress.say(fmt::format("[calibrate] {} springs tried, {}", outcome.calibration->factors.size(),
                              duration_text(progress.seconds())));
   }
-  if (!options.map.empty()) {
-    const MapAxes axes = parse_map_axes(options.map);
-    for (const std::filesystem::path& run : options.dots)
-      outcome.dots.push_back(map_dot(unfiltered, read_transient_run(run)));
-    outcome.map = response_map(unfiltered, axes, step, options.filter);
+  if (axes) {
+    outcome.map = response_map(unfiltered, *axes, step, options.filter);
     progress.say(
         fmt::format("[map] {} passages, {}", outcome.map->points.size(), duration_text(progress.seconds())));
   }

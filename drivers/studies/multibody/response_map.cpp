@@ -12,6 +12,7 @@
 #include "drivers/engine/sections.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/multibody/local_parts.hpp"
+#include "drivers/studies/multibody/model_difference.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -88,9 +89,19 @@ MapAxes parse_map_axes(const std::vector<std::string>& texts) {
   return {*speed, *wavelength};
 }
 
+void require_whole_waves(const MultibodyModel& model, const MapAxes& axes) {
+  require_sine(model.scene, "--map");
+  const double longest = axes.wavelength.values.back();
+  if (with_wavelength(model, longest).smooth())
+    throw InputError(
+        fmt::format("--map: no whole wave of {:.4g} mm fits corrugation.length = {:.4g} mm; state "
+                    "shorter wavelengths or a larger corrugation.length",
+                    1e3 * longest, 1e3 * model.scene.corrugation->length));
+}
+
 ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const MultibodyStep& step,
                          bool filtered) {
-  require_sine(model.scene, "--map");
+  require_whole_waves(model, axes);
   const ModalTrack track = modal_track(model, step.modes);
   const std::vector<double>& speeds = axes.speed.values;
   const std::vector<double>& waves = axes.wavelength.values;
@@ -99,17 +110,12 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
     MultibodyModel& m = models[i];
     m.scene.corrugation->wavelength = waves[i];
     m.corrugation = with_wavelength(model, waves[i]);
-    if (m.corrugation.smooth())
-      throw InputError(fmt::format("--map: no whole wave of {:.4g} mm fits corrugation.length = {:.4g} mm",
-                                   1e3 * waves[i], 1e3 * model.scene.corrugation->length));
     if (filtered) apply_contact_filter(m);
     if (!m.sine.empty()) use_half_space_contact(m);
   });
 
   ResponseMap map{axes, std::vector<MapPoint>(speeds.size() * waves.size()), 0, 0};
-  const auto dt = [&](double speed) {
-    return step.step.value_or(chosen_step(track, model, speed, waves.front()));
-  };
+  const auto dt = [&](double speed) { return step.step.value_or(chosen_step(track, models.front(), speed)); };
   map.dt_first = dt(speeds.front());
   map.dt_last = dt(speeds.back());
   const double load = model.vehicle.load();

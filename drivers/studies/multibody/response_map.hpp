@@ -40,9 +40,12 @@ struct ResponseMap {
   }
 };
 
+/// Throws InputError unless the corrugation is a sine that holds a whole wave of each length.
+void require_whole_waves(const MultibodyModel& model, const MapAxes& axes);
+
 /// All passages with the model's depth of corrugation, start and fastenings. The part before the corrugation
 /// is rolled once per speed. `filtered`: each wavelength is as deep as the contact filter leaves it. Throws
-/// InputError without a sine.
+/// as require_whole_waves().
 ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const MultibodyStep& step,
                          bool filtered);
 

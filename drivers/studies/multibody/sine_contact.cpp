@@ -30,7 +30,8 @@ SineContact::SineContact(const SineUnderWheel& sine, const ElasticPair& pair, do
   const double pitch = std::pow(most, 2.0 / 3) / (ContactRelief::kLoads - 1);
   const Gap smooth = quadratic_gap(sine.radius, sine.radius_y);
   const auto depth = [&](double x, double y, double phase) {
-    const double across = std::max(0.0, 1 - y * y / (sine.width * sine.width));
+    const double aside = y - sine.centre;
+    const double across = std::max(0.0, 1 - aside * aside / (sine.width * sine.width));
     return 0.5 * sine.depth * across * (1 - std::cos(2 * std::numbers::pi * x / sine.wavelength + phase));
   };
   harmonic_.assign(kPhases, {});
@@ -40,14 +41,17 @@ SineContact::SineContact(const SineUnderWheel& sine, const ElasticPair& pair, do
     const double force = std::pow(static_cast<double>(load) * pitch, 1.5);
     const HertzPatch patch = hertz(sine.radius, sine.radius_y, pair.contact_modulus(), force);
     const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / kCells;
-    // The wheel touches a slope ahead or behind, where a trough is more curved than the wheel, anywhere.
+    // The wheel touches a slope ahead, behind or aside, in a trough more curved than the wheel anywhere.
     const double curvature = 0.5 * sine.depth * std::pow(2 * std::numbers::pi / sine.wavelength, 2);
     const double slope = 0.5 * sine.depth * 2 * std::numbers::pi / sine.wavelength;
     const bool bridged = curvature * sine.radius > 0.5;
     const double half =
         std::max(kReach * patch.semi_axis_x, 1.5 * patch.semi_axis_x + 2 * slope * sine.radius) +
         (bridged ? 0.5 * sine.wavelength : 0.0);
-    const Influence influence(centred_grid(half, kReach * patch.semi_axis_y, cell), pair.alike());
+    const double tilt = 2 * sine.depth / sine.width * std::min(std::abs(sine.centre) / sine.width, 1.0);
+    const double half_across =
+        std::max(kReach * patch.semi_axis_y, 1.5 * patch.semi_axis_y + 2 * tilt * sine.radius_y);
+    const Influence influence(centred_grid(half, half_across, cell), pair.alike());
     const double on_smooth = press(influence, smooth, force).approach;
     std::array<double, kPhases> beyond{};
     for (int i = 0; i < kPhases; ++i) {

@@ -28,6 +28,7 @@ struct SineUnderWheel {
   double depth = 0;       ///< of the sine [m]
   double wavelength = 0;  ///< [m]
   double width = 0;       ///< half the width over which the depth falls to 0 as a parabola [m]
+  double centre = 0;      ///< of the parabola, across from the contact [m]
 };
 
 /// Reliefs of all phases of a sine.
