@@ -32,8 +32,9 @@ void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   choose_device(options.device);
   const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model = scene_model(resolved.scene, resolved);
-  require_runnable(model);
-  const Estimate cost = estimate(model);
+  const std::int64_t files = file_bytes(resolved.source);
+  require_runnable(model, files);
+  const Estimate cost = estimate(model, files);
   if (options.json) {
     Json json = check_json(model, cost);
     if (advice) json["advice"] = advice_json(*advice);

@@ -91,15 +91,25 @@ std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& 
   if (!model.contact) return rows;
   const Scene& scene = model.scene;
   const HertzPatch& hertz = model.hertz_patch;
+  double area = std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y;
+  double pressure = hertz.max_pressure;
   std::string remark = fmt::format("Hertz for radii {} and {} mm", readable(1e3 * model.wheel_radius(), 4),
                                    readable(1e3 * model.hertz_radius_y, 4));
+  if (model.line_width > 0) {
+    if (model.wheel_load() <= 0) return rows;
+    area = 2 * model.line_semi_axis() * model.line_width;
+    pressure = 4 / std::numbers::pi * model.wheel_load() / area;
+    remark = fmt::format("a cylinder of radius {} mm on a plane {} mm wide",
+                         readable(1e3 * model.wheel_radius(), 4), readable(1e3 * model.line_width, 4));
+  }
   if (const std::optional<double> across = too_few_elements_across_patch(model))
     remark += fmt::format("; {:.1f} elements across the patch do not resolve it", *across);
+  else if (model.line_width > 0)
+    remark += scene.plane_strain ? "" : "; its edges carry more";
   else if (scene.wheel->profile != "arc" || scene.rail->profile != "box")
     remark += "; the profiles' curvature varies over the patch: not Hertzian";
-  rows.push_back({"Patch area, static", "mm²", 1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y,
-                  1e6 * r.preload.contact.area, remark});
-  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * hertz.max_pressure, 1e-6 * r.preload.max_pressure,
+  rows.push_back({"Patch area, static", "mm²", 1e6 * area, 1e6 * r.preload.contact.area, remark});
+  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * pressure, 1e-6 * r.preload.max_pressure,
                   "nodal average; " + remark});
   return rows;
 }

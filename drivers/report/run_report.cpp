@@ -19,6 +19,7 @@
 #include "drivers/report/report_references.hpp"
 #include "drivers/report/surface_figures.hpp"
 #include "drivers/results/deflection.hpp"
+#include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "io/report/figure_files.hpp"
@@ -194,10 +195,11 @@ Chapter preload_chapter(const Run& run) {
     q.add("Largest pressure", 1e-6 * run.results.preload.max_pressure, "MPa",
           fmt::format("average at a rail node; {:.1f} MPa at an integration point",
                       1e-6 * contact.max_pressure));
+    const double approach = run.model.hertz_patch.approach;
     q.add("Largest penetration", 1e6 * contact.max_penetration, "µm",
-          fmt::format("{:.1f} % of the Hertz approach of {:.1f} µm",
-                      100 * contact.max_penetration / run.model.hertz_patch.approach,
-                      1e6 * run.model.hertz_patch.approach));
+          run.model.line_width > 0 ? ""
+                                   : fmt::format("{:.1f} % of the Hertz approach of {:.1f} µm",
+                                                 100 * contact.max_penetration / approach, 1e6 * approach));
     q.add("Centre of pressure across the rail", 1e3 * contact.centre.y, "mm",
           "from the crown's centre line, field side positive");
     q.add("Centre of pressure across the wheel", 1e3 * (contact.centre.y + scene.wheel->lateral_offset), "mm",
@@ -286,9 +288,10 @@ Chapter cost_chapter(const Run& run) {
   q.add_text("Threads", std::to_string(threads()), "",
              fmt::format("instruction set {}", run.model.internal->instruction_set()));
   q.add_text("Device", device_name(), "", "takes the steps");
+  const double seconds = run.results.seconds_preload + run.results.seconds_rolling;
   q.add_text("Peak memory", bytes_text(peak_memory()), "",
-             fmt::format("estimate: {}", bytes_text(peak_bytes(run.model, run.results.seconds_preload +
-                                                                              run.results.seconds_rolling))));
+             fmt::format("estimate: {}",
+                         bytes_text(peak_bytes(run.model, seconds, file_bytes(run.resolved.source)))));
   chapter.blocks.emplace_back(q.take());
   chapter.blocks.emplace_back(phase_table(run.model));
   chapter.blocks.emplace_back(field_table(run.model));

@@ -17,9 +17,16 @@ constexpr std::int64_t kReportBytes = 1500000;  ///< bytes of report.html and th
 
 }  // namespace
 
-DiskUse disk_use(const Model& model, double dt) {
+std::int64_t file_bytes(const SceneSource& source) {
+  std::size_t sum = 0;
+  for (const auto& [name, text] : source.files) sum += text.size();
+  return static_cast<std::int64_t>(sum);
+}
+
+DiskUse disk_use(const Model& model, double dt, std::int64_t files) {
   DiskUse use;
   use.results = kReportBytes;
+  use.checkpoints = files;
   if (!model.scene.motion || dt <= 0) return use;
   const std::int64_t steps = step_count(model.scene, dt);
   const std::int64_t interval = sampling_interval(model.scene, dt);
@@ -35,10 +42,10 @@ DiskUse disk_use(const Model& model, double dt) {
   use.results += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)) + patch);
   constexpr int kAtOnce = 3;
   const std::int64_t state =
-      checkpoint_bytes(model) +
+      checkpoint_bytes(model) + files +
       static_cast<std::int64_t>(rows * (sizeof(Sample) + sizeof(double) * static_cast<double>(measured)) +
                                 patch);
-  use.checkpoints = kAtOnce * state;
+  use.checkpoints += kAtOnce * state;
   if (model.scene.forks) use.forks = state;
   use.results += use.forks;
   if (const auto frames = static_cast<std::int64_t>(frame_steps(model.scene.output.frames, steps).size())) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "drivers/engine/model.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
@@ -13,12 +14,16 @@ struct DiskUse {
   std::int64_t results = 0;      ///< other files that stay [B]
   std::int64_t forks = 0;        ///< share of the results: a state that is kept for other runs [B]
   std::int64_t frames = 0;       ///< ParaView frames and their mesh, which stay too [B]
-  std::int64_t checkpoints = 0;  ///< while the run lasts: two checkpoints, and the one being written [B]
+  std::int64_t checkpoints = 0;  ///< while the run lasts: order, two checkpoints, the one being written [B]
 
   std::int64_t total() const { return results + frames + checkpoints; }
 };
 
-/// Disk use of a run with step `dt` [s]. 0: disk use of its statics alone.
-DiskUse disk_use(const Model& model, double dt);
+/// Size of the files that a scene names, as texts. The order and every state of a run carry them. [B]
+std::int64_t file_bytes(const SceneSource& source);
+
+/// Disk use of a run with step `dt` [s]. 0: disk use of its statics alone. `files`: file_bytes() of its
+/// scene.
+DiskUse disk_use(const Model& model, double dt, std::int64_t files = 0);
 
 }  // namespace tread

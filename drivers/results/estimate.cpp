@@ -60,7 +60,7 @@ void add_motion(const Model& model, Estimate& e) {
 
 }  // namespace
 
-Estimate estimate(Model& model) {
+Estimate estimate(Model& model, std::int64_t files) {
   // A run puts the corrugation at the place of the largest pressure in the preload. That place affects no
   // value here.
   if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
@@ -68,8 +68,8 @@ Estimate estimate(Model& model) {
   e.elements = model.elements();
   e.preload_seconds = seconds_of_preload(model);
   if (model.scene.motion) add_motion(model, e);
-  e.disk = disk_use(model, e.dt);
-  e.memory = peak_bytes(model, e.seconds());
+  e.disk = disk_use(model, e.dt, files);
+  e.memory = peak_bytes(model, e.seconds(), files);
   return e;
 }
 

@@ -23,7 +23,7 @@ struct Estimate {
 };
 
 /// Estimate with the threads in use, from a few measured applications of the model's stiffness. Applies the
-/// scene's corrugation.
-Estimate estimate(Model& model);
+/// scene's corrugation. `files`: file_bytes() of the scene.
+Estimate estimate(Model& model, std::int64_t files = 0);
 
 }  // namespace tread

@@ -23,6 +23,11 @@ constexpr std::int64_t kProgramBytes = 25'000'000;
 constexpr std::int64_t kAggregateBytes = 10'500;
 constexpr std::int64_t kFactorisationBytes = 15'000;
 
+/// Copies of the scene's files in a run: in the given scene and its order, in the session's scene and order,
+/// in the scene that the model is made of; and those that a checkpoint adds while it is packed.
+constexpr std::int64_t kFileCopies = 5;
+constexpr std::int64_t kPackedFileCopies = 2;
+
 /// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
 /// arrays, file and its image.
 std::int64_t frame_memory(const Model& model) {
@@ -145,16 +150,18 @@ std::int64_t checkpoint_bytes(const Model& model) {
   return saved_bytes(StepFeatures(model, 0));
 }
 
-std::int64_t peak_bytes(const Model& model, double seconds) {
+std::int64_t peak_bytes(const Model& model, double seconds, std::int64_t files) {
   const bool checkpoints = seconds >= model.scene.output.checkpoint_interval;
-  std::int64_t always = kProgramBytes;
+  std::int64_t always = kProgramBytes + kFileCopies * files;
   std::int64_t preload = 0;
   std::int64_t rolling = 0;
   std::int64_t written = 0;  // by one thread: a checkpoint or frames
   for (const FieldBytes& field : all_fields(model)) {
     if (field.field == RunField::checkpoint && !checkpoints) continue;
     const FieldLife life = info_of(field.field).life;
-    if (field.field == RunField::checkpoint || field.field == RunField::frames)
+    if (field.field == RunField::checkpoint)
+      written = std::max(written, field.bytes + kPackedFileCopies * files);
+    else if (field.field == RunField::frames)
       written = std::max(written, field.bytes);
     else
       (life == FieldLife::always ? always : life == FieldLife::preload ? preload : rolling) += field.bytes;

@@ -50,7 +50,7 @@ std::int64_t checkpoint_bytes(const Model& model);
 
 /// Largest sum of fields that are alive at one time, with the solver, the program and its libraries: an
 /// estimate of a run that takes `seconds` of the clock, and so keeps checkpoints or ends before the first.
-/// [B]
-std::int64_t peak_bytes(const Model& model, double seconds);
+/// `files`: file_bytes() of the scene. [B]
+std::int64_t peak_bytes(const Model& model, double seconds, std::int64_t files = 0);
 
 }  // namespace tread

@@ -94,11 +94,10 @@ std::string start_warning(const Model& model) {
       1e6 * deepest, scene.start_x(), 2e3 * half);
 }
 
-/// Length of the shorter axis of the patch; of a slice in plane strain, its length along the rail [m].
+/// Length of the shorter axis of the patch [m].
 double shorter_axis(const Model& model) {
-  if (model.scene.plane_strain)
-    return 2 * line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(),
-                              model.line_load());
+  if (model.line_width > 0 && model.wheel_load() > 0)
+    return std::min(2 * model.line_semi_axis(), model.line_width);
   return 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
 }
 
@@ -194,6 +193,10 @@ std::optional<double> shortest_length(const SurfaceSpec& spec, double radius) {
   return std::nullopt;
 }
 
+bool is_short(const SurfaceSpec& spec) {
+  return spec.kind == "dent" || spec.kind == "flat" || spec.kind == "dip";
+}
+
 /// Sentence where a dent lies beside all faces that the wheel can touch.
 std::string dent_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   if (spec.kind != "dent") return "";
@@ -206,18 +209,30 @@ std::string dent_warning(const Model& model, const std::string& name, const Surf
       name, 1e3 * dent.first, 1e3 * dent.last, 1e3 * touched.first, 1e3 * touched.last, name);
 }
 
+/// Sentence where a shape of the rail, or a short one of the wheel, is not met on the way, or not as a whole.
+std::string unmet_warning(const Scene& scene, const std::string& name, const SurfaceSpec& spec) {
+  const DepthBounds bounds = shape_of(scene, spec)->bounds();
+  const Span place{spec.at + bounds.first, spec.at + bounds.last};
+  if (!spec.on_wheel()) {
+    return is_short(spec)
+               ? way_warning(scene, "surface." + name, place, place.last, "its forces are incomplete")
+               : way_warning(scene, "surface." + name, place, place.first, "it has no effect");
+  }
+  if (!is_short(spec) || !scene.motion || scene.motion->speed <= 0) return "";
+  const Span way = run_span(scene);
+  if (!places_of(scene, spec, way).empty()) return "";
+  return fmt::format(
+      "surface.{} meets the rail at x = {:.4g} to {:.4g} m and once a turn, {:.4g} m; the wheel touches it "
+      "from x = {:.4g} to {:.4g} m, so that it has no effect; change surface.{}.at or motion.duration",
+      name, place.first, place.last, std::numbers::pi * scene.wheel->diameter, way.first, way.last, name);
+}
+
 std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   const Scene& scene = model.scene;
   const std::vector<ZoneSpec> zones = scene.all_zones();
-  const bool is_short = spec.kind == "dent" || spec.kind == "flat" || spec.kind == "dip";
-  if (is_short && !spec.on_wheel()) {
-    const DepthBounds bounds = shape_of(scene, spec)->bounds();
-    const Span place{spec.at + bounds.first, spec.at + bounds.last};
-    std::string missed =
-        way_warning(scene, "surface." + name, place, place.last, "its forces are incomplete");
-    if (!missed.empty()) return missed;
-  }
-  if (is_short && scene.motion) {
+  if (std::string unmet = unmet_warning(scene, name, spec); !unmet.empty()) return unmet;
+  const bool is_detail = is_short(spec) || (spec.kind == "map" && !spec.on_wheel());
+  if (is_detail && scene.motion) {
     const std::vector<Span> places = places_of(scene, spec, run_span(scene));
     const auto outside = [&](const Span& place) {
       return std::all_of(zones.begin(), zones.end(), [&](const ZoneSpec& zone) {
@@ -235,6 +250,19 @@ std::string surface_warning(const Model& model, const std::string& name, const S
   }
   const std::optional<double> length = shortest_length(spec, model.wheel_radius());
   return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
+}
+
+/// Sentence where the rail's head is of another stiffness or density than the beams that stand for the rail.
+std::string head_warning(const Scene& scene) {
+  constexpr double kAlike = 0.01;
+  if (scene.start() != "rolling") return "";
+  const Material& head = scene.head_material();
+  const Material& rail = scene.rail_material();
+  const auto alike = [](double a, double b) { return std::abs(a - b) <= kAlike * b; };
+  if (alike(head.youngs_modulus, rail.youngs_modulus) && alike(head.density, rail.density)) return "";
+  return "the start of a rolling wheel takes a rail of rail.material alone: a head of another Young's "
+         "modulus "
+         "or density makes F_N swing at first; let the wheel roll further before the corrugation";
 }
 
 /// Sentence where a profile's points scatter. `table`: "wheel" or "rail".
@@ -273,6 +301,7 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   const RailSpec& rail = *model.scene.rail;
   warnings.push_back(profile_warning("wheel", wheel.profile_y, wheel.profile_z));
   warnings.push_back(profile_warning("rail", rail.profile_y, rail.profile_z));
+  warnings.push_back(head_warning(model.scene));
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
   for (const auto& [name, zone] : model.scene.zones)

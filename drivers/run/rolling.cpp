@@ -96,7 +96,8 @@ void Rolling::to_the_end() {
   started_processor_ = processor_seconds();
   session_->interruption.defer();
   try {
-    if (!written_) write_checkpoint();  // the preload is expensive
+    // The preload is expensive, and other values than those of the last checkpoint must not be forgotten.
+    if (!written_ || !session_->options.overrides.empty()) write_checkpoint();
     step_to_the_end();
     wait_for_writer();
     files_->close();

@@ -139,7 +139,7 @@ void require_run_folder(const fs::path& folder, std::string_view option) {
 }
 
 bool is_taken(const fs::path& folder) {
-  return !FileLock::try_folder(folder);
+  return FileLock::is_held(folder);
 }
 
 void leave_request(const fs::path& folder, RunRequest request) {

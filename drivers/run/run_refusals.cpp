@@ -29,7 +29,7 @@ void rehearse_fork(const RunSession& session, const Fork& fork) {
   adopt_later_values(model, session.resolved.scene);
   require_same_mesh(fork.content, model);
   require_same_past(fork, model);
-  require_disk(model, results);
+  require_disk(model, results, file_bytes(session.order.scene));
   fork_step(model, results.dt);
 }
 
@@ -39,14 +39,15 @@ void rehearse(const RunSession& session, const Fork* fork) {
   if (fork)
     rehearse_fork(session, *fork);
   else
-    require_runnable(scene_model(session.resolved.scene, session.resolved, std::nullopt));
+    require_runnable(scene_model(session.resolved.scene, session.resolved, std::nullopt),
+                     file_bytes(session.resolved.source));
 }
 
 }  // namespace
 
-void require_disk(const Model& model, const RunResults& results) {
+void require_disk(const Model& model, const RunResults& results, std::int64_t files) {
   const std::optional<double>& limit = model.scene.output.disk_limit;
-  const std::int64_t needed = disk_use(model, results.dt).total();
+  const std::int64_t needed = disk_use(model, results.dt, files).total();
   if (limit && static_cast<double>(needed) > *limit)
     throw InputError(
         fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
@@ -54,13 +55,13 @@ void require_disk(const Model& model, const RunResults& results) {
                     bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
 }
 
-void require_runnable(const Model& model) {
+void require_runnable(const Model& model, std::int64_t files) {
   steady_traction(model);
   const Scene& scene = model.scene;
   if (!scene.motion || (!scene.output.disk_limit && !scene.forks)) return;
   RunResults results;
   results.dt = scene.motion->step_safety * step_limit(model).stable_step;
-  require_disk(model, results);
+  require_disk(model, results, files);
   fork_step(model, results.dt);
 }
 

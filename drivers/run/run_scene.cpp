@@ -17,6 +17,7 @@
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/report/run_report.hpp"
 #include "drivers/results/deflection.hpp"
+#include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/resolution.hpp"
@@ -106,7 +107,7 @@ void choose_step(const RunSession& session, const Model& model, RunResults& resu
   results.dt = model.scene.motion->step_safety * results.limit.stable_step;
   session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
                                     step_count(model.scene, results.dt), results.limit.reason));
-  require_disk(model, results);
+  require_disk(model, results, file_bytes(session.order.scene));
 }
 
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
@@ -123,7 +124,7 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
 /// The other run's state becomes the first checkpoint of this one.
 void begin_fork(const RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
   require_same_past(fork, model);
-  require_disk(model, results);
+  require_disk(model, results, file_bytes(session.order.scene));
   results.seconds_mesh = session.progress.seconds();
   const ForkOrigin& origin = *fork.order.origin;
   if (model.scene.output.frames > 0)
@@ -332,7 +333,10 @@ void resume_run(const RunOptions& options) {
   }
   const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
   read_order(session, found);
-  if (found) session.progress.say(fmt::format("[resume] from {}", found->path.string()));
+  if (found)
+    session.progress.say(fmt::format("[resume] from {}", found->path.string()));
+  else if (!options.overrides.empty())
+    session.checkpoints.write_order(pack_order(session.order));  // until a state carries the values
   showing_failure(session, [&] { carry_out(session, found ? &found->content : nullptr); });
 }
 

@@ -20,6 +20,15 @@ std::filesystem::path made(const std::filesystem::path& directory) {
   return directory;
 }
 
+/// Sentence on a signal before the first step. With --overwrite, states in the folder are of an earlier run.
+std::string early_word(const RunOptions& given, const CheckpointFolder& checkpoints) {
+  const bool goes_on = !given.overwrite && !checkpoints.states().empty();
+  const bool as_typed = !given.from.empty() || !given.overrides.empty();
+  return fmt::format("tread: stopped before the first step; {} {}",
+                     as_typed ? "the same command" : resume_text(given.output),
+                     goes_on ? "goes on from the last checkpoint" : "starts again");
+}
+
 /// A launcher that has lost a rank asks the others to stop, and ends them soon after.
 std::string last_word(const std::filesystem::path& directory) {
   if (!chosen_ranks()) return "";
@@ -34,8 +43,7 @@ RunSession::RunSession(const RunOptions& given)
       folder(made(given.output)),
       checkpoints(given.output / kCheckpointFolder),
       progress(given.quiet),
-      interruption(fmt::format("tread: stopped before the first step; {} starts again",
-                               given.from.empty() ? resume_text(given.output) : "the same command"),
+      interruption(early_word(given, checkpoints),
                    fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
                                resume_text(given.output)),
                    last_word(given.output)) {}

@@ -8,6 +8,7 @@
 
 #include "core/contract.hpp"
 #include "core/error.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -21,6 +22,13 @@ std::string digits(double number, int width) {
   for (int precision = width - 1; static_cast<int>(text.size()) > width && precision > 0; --precision)
     text = fmt::format("{:.{}g}", number, precision);
   return text;
+}
+
+/// Size of the whole UTF-8 characters at the start of a text that `most` bytes hold [B].
+std::size_t whole_characters(std::string_view text, std::size_t most) {
+  std::size_t size = std::min(text.size(), most);
+  while (size > 0 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80) --size;
+  return size;
 }
 
 }  // namespace
@@ -70,7 +78,11 @@ void KeywordDeck::names(std::span<const int> widths, std::initializer_list<std::
 }
 
 void KeywordDeck::title(std::string_view text) {
-  text_ += text.substr(0, kDeckLine - 10);
+  std::string line = one_line(std::string(text));
+  if (line.starts_with('*') || line.starts_with('$'))
+    line.insert(line.begin(), ' ');  // else a card or a remark
+  line.resize(whole_characters(line, kDeckLine - 10));
+  text_ += line;
   end_line();
 }
 

@@ -54,7 +54,8 @@ class KeywordDeck {
   /// Names of a card's fields as a comment, each of one word.
   void names(std::initializer_list<std::string_view> names) { this->names(kTens, names); }
   void names(std::span<const int> widths, std::initializer_list<std::string_view> names);
-  /// A line of free text, such as a part's title, cut to the line's length.
+  /// A line of free text, such as a part's title, cut to the line's length. Blanks stand in place of line
+  /// breaks.
   void title(std::string_view text);
   /// A card of up to eight fields of ten characters.
   void card(Fields fields) { card(kTens, fields); }

@@ -14,49 +14,85 @@
 
 namespace tread {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-ResourceError refusal(const char* action, const std::filesystem::path& path, int error, const char* way_out) {
+/// Name of a folder's lock file, which stays empty in the folder.
+constexpr const char* kFolderLock = ".lock";
+
+ResourceError refusal(const char* action, const fs::path& path, int error, const char* way_out) {
   return ResourceError(
       fmt::format("cannot {} {}: {}{}", action, path.string(), std::strerror(error), way_out));
 }
 
-int opened(const std::filesystem::path& path, int flags) {
+int opened(const fs::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor < 0) throw refusal("open", path, errno, "");
   return descriptor;
 }
 
 /// Returns true if an attempt failed because another holder has the lock. Throws for any other error.
-bool is_taken(int error, const std::filesystem::path& path) {
+bool is_taken(int error, const fs::path& path) {
   if (error == EAGAIN || error == EACCES) return true;
   throw refusal("lock", path, error, "; choose a folder on another file system");
 }
 
-}  // namespace
-
-std::optional<FileLock> FileLock::try_folder(const std::filesystem::path& folder) {
-  FileLock lock(opened(folder, O_RDONLY | O_DIRECTORY));
-  if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0 && is_taken(errno, folder)) return std::nullopt;
-  return lock;
+/// Opens a folder's lock file; -1 where that cannot be.
+int open_folder_lock(const fs::path& folder, int flags) {
+  return ::open((folder / kFolderLock).c_str(), flags | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-std::optional<FileLock> FileLock::try_number(const std::filesystem::path& file, std::uint64_t number) {
-  FileLock lock(opened(file, O_RDWR | O_CREAT | O_NOFOLLOW));
+/// Request for the lock of one byte. The lock belongs to the open file, not to the process: two locks of one
+/// process exclude one another, too.
+struct flock byte_lock(std::uint64_t number) {
   struct flock range {};
   range.l_type = F_WRLCK;
   range.l_whence = SEEK_SET;
   range.l_start = static_cast<off_t>(number % static_cast<std::uint64_t>(std::numeric_limits<off_t>::max()));
   range.l_len = 1;
-  // The lock belongs to the open file, not to the process: two locks of one process exclude one another, too.
-  if (::fcntl(lock.descriptor_, F_OFD_SETLK, &range) != 0 && is_taken(errno, file)) return std::nullopt;
+  return range;
+}
+
+}  // namespace
+
+std::optional<FileLock> FileLock::try_directory(const fs::path& folder) {
+  FileLock lock(opened(folder, O_RDONLY | O_DIRECTORY));
+  if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0 && is_taken(errno, folder)) return std::nullopt;
   return lock;
 }
 
-FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+std::optional<FileLock> FileLock::try_folder(const fs::path& folder) {
+  std::optional<FileLock> lock = try_directory(folder);
+  if (!lock) return std::nullopt;
+  // Network file systems keep locks of directories for each machine alone, those of files for all machines.
+  lock->shared_ = open_folder_lock(folder, O_RDWR | O_CREAT);
+  struct flock byte = byte_lock(0);
+  if (::fcntl(lock->shared_, F_OFD_SETLK, &byte) != 0 && (errno == EAGAIN || errno == EACCES))
+    return std::nullopt;
+  return lock;
+}
+
+bool FileLock::is_held(const fs::path& folder) {
+  const FileLock look(open_folder_lock(folder, O_RDONLY));
+  struct flock byte = byte_lock(0);
+  const bool on_some_machine = ::fcntl(look.descriptor_, F_OFD_GETLK, &byte) == 0 && byte.l_type != F_UNLCK;
+  return on_some_machine || !try_directory(folder);
+}
+
+std::optional<FileLock> FileLock::try_number(const fs::path& file, std::uint64_t number) {
+  FileLock lock(opened(file, O_RDWR | O_CREAT | O_NOFOLLOW));
+  struct flock byte = byte_lock(number);
+  if (::fcntl(lock.descriptor_, F_OFD_SETLK, &byte) != 0 && is_taken(errno, file)) return std::nullopt;
+  return lock;
+}
+
+FileLock::FileLock(FileLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), shared_(std::exchange(other.shared_, -1)) {}
 
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  for (const int descriptor : {descriptor_, shared_})
+    if (descriptor >= 0) ::close(descriptor);
 }
 
 }  // namespace tread

@@ -9,9 +9,14 @@ namespace tread {
 
 class FileLock {
  public:
-  /// Locks a folder. Returns nullopt while another holder has the lock. Throws ResourceError if the folder
-  /// cannot be opened or its file system has no locks.
+  /// Locks a folder, for all machines that share it if this user can write there and its file system has such
+  /// locks, else for this machine. An empty file `.lock` stays in the folder. Returns nullopt while another
+  /// holder has the lock. Throws ResourceError if the folder cannot be opened or its file system has no
+  /// locks.
   static std::optional<FileLock> try_folder(const std::filesystem::path& folder);
+
+  /// Returns true while try_folder() would find another holder. Leaves no file. Throws as try_folder().
+  static bool is_held(const std::filesystem::path& folder);
 
   /// Locks a number: `file` holds one lock for each number. The file is created empty if it is missing and
   /// never grows. Returns nullopt and throws as try_folder().
@@ -24,7 +29,11 @@ class FileLock {
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
 
+  /// Locks a folder for this machine. Returns nullopt and throws as try_folder().
+  static std::optional<FileLock> try_directory(const std::filesystem::path& folder);
+
   int descriptor_;
+  int shared_ = -1;  ///< lock file of a folder, for all machines
 };
 
 }  // namespace tread

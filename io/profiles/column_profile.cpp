@@ -61,13 +61,6 @@ void require_order(const std::vector<std::string>& words) {
   if (names.size() > 1) require_column_order(names, kProfileNames);
 }
 
-/// Returns true if commas stand in the numbers of a row that blanks or semicolons divide.
-bool has_decimal_commas(const std::string& line) {
-  const std::string text = with_decimal_points(line);
-  return text.find_first_of("; \t") != std::string::npos && text.find(", ") == std::string::npos &&
-         leading_numbers(text, 2).size() == 2;
-}
-
 }  // namespace
 
 FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& faults) {
@@ -105,9 +98,7 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
       continue;
     }
     if (has_decimal_commas(line)) {
-      faults.push_back(
-          {number, fmt::format("\"{}\": a comma separates columns: write decimal points, not commas",
-                               line.substr(0, 60))});
+      faults.push_back({number, comma_fault(line)});
       continue;
     }
     if (columns == 0) columns = row.size();

@@ -63,6 +63,10 @@ class MiniprofParser {
     if (name == "side" || name == "rail") points_.side = value;
     const bool numeric = name == "xoffset" || name == "yoffset" || name == "xypoints" || name == "mptypeno";
     if (!numeric || value.empty()) return;
+    if (!with_decimal_points(value).empty()) {
+      fault(comma_fault(fmt::format("{}={}", key, value)));
+      return;
+    }
     if (number.empty()) {
       fault(fmt::format("{}={}: expected a number", key, value.substr(0, 60)));
       return;
@@ -88,6 +92,11 @@ class MiniprofParser {
   }
 
   void read_point(const std::string& line) {
+    if (has_decimal_commas(line)) {
+      ++held_;
+      fault(comma_fault(line));
+      return;
+    }
     const std::size_t needed = std::max(x_column_, y_column_) + 1;
     const std::vector<double> numbers = leading_numbers(line, needed);
     if (numbers.size() < needed) {

@@ -1,5 +1,7 @@
 #include "io/profiles/profile_points.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -31,6 +33,17 @@ std::vector<double> leading_numbers(std::string_view line, std::size_t most) {
     at = next;
   }
   return numbers;
+}
+
+bool has_decimal_commas(const std::string& row) {
+  const std::string text = with_decimal_points(row);
+  return text.find_first_of("; \t") != std::string::npos && text.find(", ") == std::string::npos &&
+         leading_numbers(text, 2).size() == 2;
+}
+
+std::string comma_fault(const std::string& line) {
+  return fmt::format("\"{}\": a comma separates columns: write decimal points, not commas",
+                     line.substr(0, 60));
 }
 
 }  // namespace tread

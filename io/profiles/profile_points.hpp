@@ -32,4 +32,10 @@ std::vector<std::string> lines_of(const std::string& text);
 /// Numbers at the beginning of a line, separated by blanks, tabs, commas or semicolons, up to `most`.
 std::vector<double> leading_numbers(std::string_view line, std::size_t most);
 
+/// Returns true if commas stand in the numbers of a row that blanks or semicolons divide.
+bool has_decimal_commas(const std::string& row);
+
+/// Message on decimal commas in a line.
+std::string comma_fault(const std::string& line);
+
 }  // namespace tread

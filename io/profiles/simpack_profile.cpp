@@ -63,6 +63,10 @@ class SimpackParser {
   }
 
   void read_point(const std::string& line) {
+    if (has_decimal_commas(line)) {
+      fault(comma_fault(line));
+      return;
+    }
     const std::vector<double> numbers = leading_numbers(line, 4);
     const bool whole = !numbers.empty() && std::isfinite(numbers.back()) && counted(line) == numbers.size();
     if (!whole || numbers.size() < 2 || numbers.size() > 3) {
@@ -95,6 +99,10 @@ class SimpackParser {
     const std::string value(trimmed(std::string_view(line).substr(equals + 1)));
     const bool numeric = std::find(kNumbers.begin(), kNumbers.end(), key) != kNumbers.end();
     if (!numeric && key != "type") return;
+    if (!with_decimal_points(value).empty()) {
+      fault(comma_fault(line));
+      return;
+    }
     const std::vector<double> numbers = leading_numbers(value, 1);
     if (numbers.empty()) {
       fault(fmt::format("{} = {}: expected a number", key, value.substr(0, 60)));

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/mesh/wheel_section.hpp"
@@ -88,11 +90,16 @@ void add_wheel(Keys& keys) {
              "Profile of the tread; a half wheelset takes LMA (TB/T 449), S1002 (EN 13715) or a file (two "
              "columns, SIMPACK, MiniProf, columns under a header), a tyre takes arc or cylinder")));
   add_profile_file(keys, "wheel", &Scene::wheel, &WheelSpec::profile_shift, &WheelSpec::profile_smoothing);
-  keys.push_back(quantity("wheel.diameter", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::diameter), kLength,
-                          "m", {0.1, 3}, "Diameter at the nominal rolling circle"));
-  keys.push_back(quantity("wheel.lateral_offset", {Effect::mesh},
-                          at(&Scene::wheel, &WheelSpec::lateral_offset), kLength, "mm", {-0.05, 0.05},
-                          "Rail centre line in wheel coordinates, positive to the field side"));
+  keys.push_back(quantity(
+      "wheel.diameter", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::diameter), kLength, "m", {0.1, 3},
+      fmt::format("Diameter at the nominal rolling circle; of a half wheelset {:g} m to {:g} m",
+                  kSmallestDiameter, kLargestDiameter)));
+  keys.push_back(
+      quantity("wheel.lateral_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::lateral_offset), kLength,
+               "mm", {-0.05, 0.05},
+               fmt::format("Rail centre line in wheel coordinates, positive to the field side; under "
+                           "a half wheelset at most {:g} mm to either side",
+                           1e3 * kMostAside)));
   keys.push_back(
       half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
                              above(0, 1e4), "Mass that the web, or the brake rings, are sized to reach")));
@@ -120,7 +127,7 @@ void add_wheel(Keys& keys) {
                          "Two ring plates on the web, bolted along a circle, as thick as the mass needs")));
   keys.push_back(
       half_wheelset(quantity("wheel.axle_bore", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::axle_bore),
-                             kLength, "mm", above(0, 0.15), "Bore of the hollow axle")));
+                             kLength, "mm", {kNarrowestBore, kWidestBore}, "Bore of the hollow axle")));
   keys.push_back(
       only_with("wheel.profile", "arc",
                 quantity("wheel.crown_radius", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::crown_radius),

@@ -98,8 +98,8 @@ void add_motion(Keys& keys) {
   keys.push_back(rolling(flag("motion.spin_in_preload", {Effect::preload},
                               at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "The static state carries the spin's body force")));
-  keys.push_back(rolling(number("motion.creepage", {Effect::preload},
-                                at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
+  keys.push_back(rolling(number("motion.creepage", {Effect::mesh}, at(&Scene::motion, &MotionSpec::creepage),
+                                {-2, 2, false, true},
                                 "Creepage at the start, relative to free rolling; -2: a locked wheel")));
   keys.push_back(rolling(
       choice("motion.start", {Effect::preload}, at(&Scene::motion, &MotionSpec::start),

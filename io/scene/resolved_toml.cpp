@@ -5,6 +5,7 @@
 
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/schema.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -22,14 +23,6 @@ std::string toml_string(const std::string& text) {
     }
   }
   return quoted + '"';
-}
-
-/// A comment must stay on its line.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
 }
 
 std::string toml_value(const Key& key, const Entry& entry) {

@@ -8,10 +8,12 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/math/hash.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/toml_text.hpp"
@@ -27,6 +29,13 @@ namespace {
 constexpr std::size_t kLargestStudy = 1 << 20;  // [bytes]
 constexpr std::size_t kLongestName = 120;       // [characters] of a point
 constexpr int kMostJobs = 4096;
+
+/// Names that no point can have: files of a study, and files by which a folder shows whose results it holds.
+constexpr std::array kReservedNames = {"report.html",   "figures",    "status.json",  "request",
+                                       "request.taken", "sweep.csv",  "dial.csv",     "dial.jsonl",
+                                       "effects.csv",   "results.md", "numbers.csv",  "smooth.toml",
+                                       "multibody.csv", "levels.csv", "run.h5",       "histories.csv",
+                                       "patch.h5",      "checkpoint", "summary.json", "compare.json"};
 
 /// All values that a key takes in a grid.
 struct Axis {
@@ -189,7 +198,7 @@ class StudyReader {
       }
       toml::table values = *item.as_table();
       StudyPoint point;
-      if (const toml::node* name = values.get("name")) {
+      if (const toml::node* name = item.as_table()->get("name")) {  // copies do not know their place
         point.name = name->value_exact<std::string>().value_or("");
         check_name(name->source(), point.name);
         values.erase("name");
@@ -208,10 +217,10 @@ class StudyReader {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
              std::string_view("._+-=,").find(c) != std::string_view::npos;
     };
-    constexpr std::array kOfStudy = {"report.html", "sweep.csv", "status.json", "figures"};
-    if (std::find(kOfStudy.begin(), kOfStudy.end(), name) != kOfStudy.end()) {
-      report(at, "point.name",
-             fmt::format("\"{}\" is a file of the study itself: choose another name", name));
+    if (std::find(kReservedNames.begin(), kReservedNames.end(), name) != kReservedNames.end()) {
+      report(
+          at, "point.name",
+          fmt::format("\"{}\" is a name that tread itself uses in such a folder: choose another name", name));
       return;
     }
     if (!name.empty() && name.size() <= kLongestName && name.front() != '.' && name.front() != '-' &&
@@ -327,7 +336,11 @@ std::string point_name(const std::vector<StudySetting>& varied) {
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", key_end(setting.key, parts),
                         folder_text(setting.value));
   }
-  return name.size() <= kLongestName ? name : name.substr(0, kLongestName);
+  if (name.size() <= kLongestName) return name;
+  Hash hash;
+  hash.add(std::as_bytes(std::span(name)));
+  constexpr std::size_t kDigits = 16;
+  return fmt::format("{}{:016x}", name.substr(0, kLongestName - kDigits), hash.value());
 }
 
 bool is_study(const std::string& text, const std::string& name) {

@@ -50,7 +50,7 @@ Study read_study(const std::filesystem::path& path);
 bool is_study(const std::string& text, const std::string& name);
 
 /// "speed=300km_h,mu=0.3": the last parts of the keys, or as much of the keys as tells them apart, with their
-/// values.
+/// values. A hash of the whole ends a name that would be too long.
 std::string point_name(const std::vector<StudySetting>& varied);
 
 }  // namespace tread

@@ -20,21 +20,6 @@ namespace {
 
 constexpr std::size_t kLongestLine = 2000;  // [bytes]
 
-/// Keys of thousands of parts would exhaust the stack of the TOML parser.
-void refuse_long_lines(const std::string& text, const std::string& file) {
-  int line = 1;
-  for (std::size_t start = 0; start < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    if (end - start > kLongestLine) {
-      throw ProblemsError(
-          {{file, line, 0, "",
-            fmt::format("the line has more than {} bytes; an array may go on in the next lines",
-                        kLongestLine)}});
-    }
-    start = end + 1;
-  }
-}
-
 /// Where the quoted text or the comment that starts at `at` ends; `at` itself where none starts there.
 std::size_t end_of_free_text(const std::string& text, std::size_t at) {
   const auto end_of_line = [&] { return std::min(text.find('\n', at), text.size()); };
@@ -56,6 +41,28 @@ std::size_t end_of_free_text(const std::string& text, std::size_t at) {
     }
   }
   return last;
+}
+
+/// Keys of thousands of parts would exhaust the stack of the TOML parser. Only the marks of quoted texts and
+/// comments count.
+void refuse_long_lines(const std::string& text, const std::string& file) {
+  int line = 1;
+  std::size_t bytes = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = end_of_free_text(text, at);
+    const std::size_t next = std::max(end, at + 1);
+    const auto passed = std::string_view(text).substr(at, next - at);
+    const auto ends = std::count(passed.begin(), passed.end(), '\n');
+    bytes = ends > 0 ? 0 : bytes + (end == at ? 1U : 2U);
+    line += static_cast<int>(ends);
+    if (bytes > kLongestLine) {
+      throw ProblemsError({{file, line, 0, "",
+                            fmt::format("the line has more than {} bytes outside of quotes and comments; an "
+                                        "array may go on in the next lines",
+                                        kLongestLine)}});
+    }
+    at = next;
+  }
 }
 
 /// First byte of a character outside of quotes and comments that is not ASCII: nothing in TOML, and where

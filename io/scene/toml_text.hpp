@@ -22,8 +22,8 @@ struct TomlFault {};
 
 namespace tread {
 
-/// Throws ProblemsError at the line where the text is not TOML, or has more than 2000 bytes; `file` is the
-/// name in messages.
+/// Throws ProblemsError at the line where the text is not TOML, or has more than 2000 bytes outside of quotes
+/// and comments; `file` is the name in messages.
 toml::table parse_toml(const std::string& text, const std::string& file);
 
 /// One value without its key, as after --set: the text itself where `takes_string` and it is not quoted, or

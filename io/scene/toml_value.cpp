@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "io/files/absolute_path.hpp"
+#include "io/text/text.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -16,7 +18,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void wrong_type(const std::string& expected, const toml::node& node) {
+/// The value that a text means, as TOML writes it; empty where the text means none.
+using Spelling = std::string (*)(const std::string& text);
+
+/// "0.5" of ".5" and "0,5".
+std::string number_in_toml(const std::string& text) {
+  const std::string with_points = with_decimal_points(text);
+  try {
+    return fmt::format("{}", parse_number(with_points.empty() ? text : with_points));
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+/// "true" of "True".
+std::string truth_in_toml(const std::string& text) {
+  const std::string word = lower_case(text);
+  return word == "true" || word == "false" ? word : "";
+}
+
+[[noreturn]] void wrong_type(const std::string& expected, const toml::node& node,
+                             Spelling spelling = nullptr) {
+  const auto* text = spelling ? node.as_string() : nullptr;
+  const std::string meant = text ? spelling(text->get()) : "";
+  if (!meant.empty() && parse_plain_value(text->get(), false)->is_string())
+    throw InputError(fmt::format("\"{}\" is not valid TOML; write {}", text->get(), meant));
   throw InputError(fmt::format("expected {}, got {}", expected, describe_node(node)));
 }
 
@@ -24,7 +50,9 @@ double to_number(const toml::node& node, bool ratio) {
   const auto* text = node.as_string();
   if (ratio && text) return parse_ratio(text->get());
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value) wrong_type(ratio ? "a number or a ratio such as \"1:40\"" : "a number without quotes", node);
+  if (!value)
+    wrong_type(ratio ? "a number or a ratio such as \"1:40\"" : "a number without quotes", node,
+               number_in_toml);
   if (!std::isfinite(*value)) throw InputError("the number must be finite");
   return *value;
 }
@@ -41,7 +69,7 @@ double to_quantity(const Quantity& quantity, const toml::node& node, std::string
 
 int to_integer(const toml::node& node) {
   const auto* integer = node.as_integer();
-  if (!integer) wrong_type("a whole number without quotes", node);
+  if (!integer) wrong_type("a whole number without quotes", node, number_in_toml);
   if (integer->get() != static_cast<std::int64_t>(static_cast<int>(integer->get()))) {
     throw InputError(fmt::format("{} is too large", integer->get()));
   }
@@ -56,8 +84,7 @@ std::string to_text(const Key& key, const toml::node& node, const fs::path& fold
   const bool allowed = std::find(key.allowed.begin(), key.allowed.end(), value) != key.allowed.end();
   if (allowed || (key.allowed.empty() && !key.takes_file)) return value;
   const bool looks_like_file = key.allowed.empty() || value.find_first_of("./") != std::string::npos;
-  if (key.takes_file && looks_like_file && !value.empty())
-    return fs::absolute(folder / value).lexically_normal();
+  if (key.takes_file && looks_like_file && !value.empty()) return absolute_path(folder / value);
   if (key.allowed.empty()) throw InputError("the file name is empty");
   const std::string similar = similar_text(value, key.allowed);
   throw InputError(fmt::format("\"{}\" is unknown; {}choose from: {}{}", value,
@@ -106,7 +133,7 @@ std::string describe_node(const toml::node& node) {
 
 bool to_boolean(const toml::node& node) {
   const auto* truth = node.as_boolean();
-  if (!truth) wrong_type("true or false without quotes", node);
+  if (!truth) wrong_type("true or false without quotes", node, truth_in_toml);
   return truth->get();
 }
 

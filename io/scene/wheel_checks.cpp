@@ -3,7 +3,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/mesh/web_outline.hpp"
+#include "core/mesh/wheel_shape.hpp"
+#include "core/travel.hpp"
 
 namespace tread {
 
@@ -27,7 +28,7 @@ void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
           "a part of a ring is not balanced about its axle; state scene.gravity = \"0 m/s2\", or leave "
           "the overhang out");
   const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-  require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
+  require(!wheel.overhang || run + 2 * *wheel.overhang < kLargestPart * std::numbers::pi * wheel.diameter,
           {"wheel.overhang", "motion.duration"},
           "the wheel rolls on most of its ring; leave the overhang out");
 }
@@ -45,7 +46,16 @@ void check_web_file(const WheelSpec& wheel, Require require) {
   }
 }
 
+void check_dimensions(const WheelSpec& wheel, Require require) {
+  WheelShape shape;
+  shape.diameter = wheel.diameter;
+  shape.lateral_offset = wheel.lateral_offset;
+  shape.axle_bore = wheel.axle_bore;
+  for (const ShapeFault& fault : shape.faults()) require(false, {fault.key, "wheel.shape"}, fault.message);
+}
+
 void check_half_wheelset(const WheelSpec& wheel, Require require) {
+  check_dimensions(wheel, require);
   require(!has_arc(wheel), {"wheel.profile", "wheel.shape"},
           "a half wheelset has the profile LMA, S1002 or a file");
   require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),

@@ -13,6 +13,9 @@ std::string_view trimmed(std::string_view text);
 /// Lower-case copy of ASCII text.
 std::string lower_case(std::string_view text);
 
+/// The text on one line: blanks in place of control characters.
+std::string one_line(std::string text);
+
 /// A cell of a CSV file, quoted if necessary.
 std::string csv_cell(const std::string& text);
 

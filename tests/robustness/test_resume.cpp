@@ -5,16 +5,21 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/run_scene.hpp"
+#include "drivers/run/run_session.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
 
@@ -34,7 +39,8 @@ class Resume : public ProgramTest {
 
   /// Arguments of `tread run`.
   static std::string run(const fs::path& folder, const std::string& more = "") {
-    return fmt::format("run {} -t 1 -o {} {} {} {}", kTyre, folder.string(), kScene, kFrames, more);
+    return fmt::format("run {} -t 1 -o {} {} {} {}", shell_word(kTyre), folder.string(), kScene, kFrames,
+                       more);
   }
   std::string resume(const std::string& more = "") const {
     return fmt::format("resume {} -t 1 {}", folder_.string(), more);
@@ -112,6 +118,21 @@ TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
   expect_finishes_as_if_never_stopped();
 }
 
+/// Over a network only the lock of the file is seen, not that of the directory.
+TEST(RunFolders, AHolderOnAnotherMachineCounts) {
+  const TemporaryFolder temporary;
+  EXPECT_FALSE(is_taken(temporary.path));
+  EXPECT_TRUE(fs::is_empty(temporary.path));
+  {
+    const auto there = FileLock::try_number(temporary.path / ".lock", 0);
+    EXPECT_TRUE(is_taken(temporary.path));
+    EXPECT_THROW(RunFolder(temporary.path), ResourceError);
+  }
+  EXPECT_FALSE(is_taken(temporary.path));
+  const RunFolder here(temporary.path);
+  EXPECT_TRUE(is_taken(temporary.path));
+}
+
 TEST(RunRequests, OfSeveralProcessesDoNotDisturbOneAnother) {
   const TemporaryFolder temporary;
   const RunFolder folder(temporary.path);
@@ -131,7 +152,7 @@ TEST(RunRequests, OfSeveralProcessesDoNotDisturbOneAnother) {
   leave_request(temporary.path, RunRequest::stop);
   leave_request(temporary.path, RunRequest::checkpoint);
   EXPECT_EQ(folder.take_request(), RunRequest::stop);
-  EXPECT_TRUE(fs::is_empty(temporary.path));
+  EXPECT_EQ(std::distance(fs::directory_iterator(temporary.path), {}), 1);  // the lock
 }
 
 TEST_F(Resume, ControlledFromOutside) {
@@ -308,6 +329,61 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
     expect_same_run(root_ / "short", folder_);
     fs::remove_all(folder_);
   }
+}
+
+TEST_F(Resume, OtherValuesAreKeptBeforeTheFirstStep) {
+  RunOptions options;
+  options.threads.number = 1;
+  options.quiet = true;
+  options.output = folder_;
+  const CheckpointFolder checkpoints(folder_ / "checkpoint");
+  const auto ends_at = [&](CheckpointStage stage, const std::function<void()>& begin) {
+    options.observer = [stage](CheckpointStage reached) {
+      if (reached == stage) ::kill(::getpid(), SIGKILL);
+    };
+    EXPECT_EQ(wait_for(child(begin)), 1000 + SIGKILL);
+  };
+  const auto resumed = [&] { resume_run(options); };
+  ends_at(CheckpointStage::begun, [&] {
+    run_scene(resolve_scene(fs::path(kTyre), {"scene.element_size=8 mm", "stop.steps=20"}), options);
+  });
+  options.overrides = {"stop.steps=30", "output.checkpoint_interval=1 h"};
+  ends_at(CheckpointStage::begun, resumed);
+  EXPECT_TRUE(checkpoints.states().empty());
+  EXPECT_EQ(unpack_order(checkpoints.read_order()).later, options.overrides);
+
+  EXPECT_EQ(call(resume()), 4) << errors();
+  EXPECT_TRUE(has(errors(), "stop.steps = 30 ends the run here")) << errors();
+  options.overrides = {"stop.steps=0"};
+  ends_at(CheckpointStage::old_removed, resumed);
+  std::vector<std::string> refused;
+  const std::optional<CheckpointFolder::Found> found = checkpoints.newest(refused);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->steps, 30);
+  EXPECT_EQ(unpack_order(found->content).later.back(), "stop.steps=0");
+}
+
+TEST(RunSessions, ASignalBeforeTheFirstStepNamesTheWayOn) {
+  const TemporaryFolder temporary;
+  RunOptions options;
+  options.output = temporary.path / "run";
+  const fs::path said = temporary.path / "said";
+  const auto signal_early = [&] {
+    const pid_t process = child([&] {
+      if (std::freopen(said.c_str(), "w", stderr) == nullptr) ::_exit(1);
+      const RunSession session(options);
+      ::raise(SIGINT);
+    });
+    EXPECT_EQ(wait_for(process), 75);
+    return content_of(said);
+  };
+  const std::string sentence = "stopped before the first step; " + resume_text(options.output);
+  EXPECT_TRUE(has(signal_early(), sentence + " starts again")) << content_of(said);
+  fs::create_directories(options.output / kCheckpointFolder);
+  std::ofstream(options.output / kCheckpointFolder / "step-000000000007.h5") << "a state";
+  EXPECT_TRUE(has(signal_early(), sentence + " goes on from the last checkpoint")) << content_of(said);
+  options.overrides = {"stop.steps=9"};
+  EXPECT_TRUE(has(signal_early(), "the same command goes on")) << content_of(said);
 }
 
 TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -183,6 +185,8 @@ TEST(SceneErrors, Ranges) {
       {"[material.slab]\nyoungs_modulus = \"0 GPa\"",
        "x.toml:4:1: material.slab.youngs_modulus: 0 GPa is not allowed; it must be above 0 GPa and at most "
        "10000 GPa"},
+      {"[wheel]\naxle_bore = \"120 mm\"",
+       "x.toml:4:1: wheel.axle_bore: 120 mm is not allowed; it must be at least 20 mm and at most 110 mm"},
       {"[rail]\ninclination = \"1:2\"",
        "x.toml:4:1: rail.inclination: 0.5 is not allowed; it must be at least 0 and at most 0.1"},
       {"[fastenings]\ncount = 0",
@@ -240,6 +244,11 @@ TEST(SceneErrors, PartsThatDoNotFit) {
       {"[wheel]\nshape = \"tyre\"", "x.toml:4:1: wheel.shape: a tyre has the profile arc or cylinder"},
       {"[wheel]\nprofile = \"arc\"",
        "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA, S1002 or a file"},
+      {"[wheel]\ndiameter = \"0.4 m\"\nlateral_offset = \"40 mm\"",
+       "2 problems\nx.toml:4:1: wheel.diameter: 400 mm is outside 660 to 1400 mm of a half wheelset: rim, "
+       "brake ring and hub need their room between tread and axle; wheel.shape = \"tyre\" takes other "
+       "diameters\nx.toml:5:1: wheel.lateral_offset: 40 mm is outside -30 to 30 mm of a half wheelset: the "
+       "rail has to lie under the tread"},
   });
 }
 
@@ -478,14 +487,25 @@ TEST(SceneErrors, Overrides) {
               "--set: motion.traction.rmp: unknown key");
   expect_part(error_of(kBase, {"contact.friction=high"}),
               "expected a number without quotes, got the string \"high\"");
+  for (const auto& [typed, number] :
+       {std::pair{".5", "0.5"}, std::pair{"5.", "5"}, std::pair{"0,3", "0.3"}, std::pair{"05", "5"}})
+    EXPECT_EQ(error_of(kBase, {fmt::format("contact.friction={}", typed)}),
+              fmt::format("--set: contact.friction: \"{}\" is not valid TOML; write {}", typed, number));
+  expect_part(error_of(kBase, {"fastenings.count=024"}), "\"024\" is not valid TOML; write 24");
+  expect_part(error_of(kBase, {"slab.present=True"}), "\"True\" is not valid TOML; write true");
 }
 
 TEST(SceneErrors, Syntax) {
   expect_part(error_of("[rail]\nlength = = 3\n"), "x.toml:2:10: ");
   expect_part(error_of("[rail]\nlength = \"3 m\"\nlength = \"4 m\"\n"), "x.toml:3:");
   expect_part(error_of("[rail\n"), "x.toml:1:");
-  EXPECT_EQ(error_of("a" + std::string(400000, '.')),
-            "x.toml:1: the line has more than 2000 bytes; an array may go on in the next lines");
+  EXPECT_EQ(
+      error_of("a" + std::string(400000, '.')),
+      "x.toml:1: the line has more than 2000 bytes outside of quotes and comments; an array may go on in "
+      "the next lines");
+  std::string quoted = "title = \"\"\"\n\"\"\"\n\"a\"";
+  for (int part = 0; part < 1000; ++part) quoted += ".\"a\"";
+  expect_part(error_of(quoted), "x.toml:3: the line has more than 2000 bytes");
   expect_part(error_of("a = " + std::string(1000, '[')), "x.toml:1:");
   EXPECT_EQ(error_of("[scene]\n[\\x]\n[rail]\n"), "x.toml:2: the line is not valid TOML");
   const std::string foreign = "a character that is not ASCII stands outside of quotes and comments";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -53,6 +54,20 @@ TEST(FrictionScene, ATableIsReadInItsUnits) {
   EXPECT_EQ(scene.contact->friction_at_x, (std::vector<double>{0.4, 0.1}));
   EXPECT_EQ(scene.contact->friction_start, 0.02);
   EXPECT_EQ(scene.contact->largest_friction(), 0.4);
+}
+
+TEST(FrictionScene, APathBehindALinkLeadsWhereTheFileSystemLeads) {
+  const samples::TemporaryFolder folder;
+  const std::filesystem::path real = std::filesystem::canonical(folder.path) / "real";
+  std::filesystem::create_directories(real / "below");
+  std::filesystem::create_directory_symlink(real / "below", folder.path / "link");
+  std::ofstream(real / "f.txt") << "# x [m]  f [-]\n0 0.4\n1 0.3\n";
+  for (const std::filesystem::path& place :
+       {folder.path / "link/../f.txt", real / "none/.././below/../f.txt"}) {
+    const Scene scene =
+        samples::tyre_scene({"contact.friction_law=table", "contact.friction_file=" + place.string()});
+    EXPECT_EQ(scene.contact->friction_file, (real / "f.txt").string());
+  }
 }
 
 TEST(FrictionScene, BadTablesAreRefused) {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -251,6 +252,22 @@ TEST(Memory, CheckpointsCountInRunsThatLastLongEnough) {
   const Model model(small_track({"output.checkpoint_interval=10min"}));
   EXPECT_EQ(peak_bytes(model, 0), peak_bytes(model, 599));
   EXPECT_LE(peak_bytes(model, 599), peak_bytes(model, 600));
+}
+
+/// The order and each of three states carry the files that the scene names; so does a state for forks.
+TEST(Disk, FilesOfTheSceneCount) {
+  const std::int64_t files = file_bytes({"scene.toml", "", ".", {{"/a.txt", "12345"}, {"/b.inp", "123"}}});
+  EXPECT_EQ(files, 8);
+  Scene scene = small_track();
+  scene.forks.emplace();
+  const Model model(scene);
+  constexpr double kStep = 1e-7;
+  const DiskUse without = disk_use(model, kStep);
+  const DiskUse with = disk_use(model, kStep, files);
+  EXPECT_EQ(with.checkpoints - without.checkpoints, 4 * files);
+  EXPECT_EQ(with.results - without.results, files);
+  EXPECT_EQ(disk_use(model, 0, files).total() - disk_use(model, 0).total(), files);
+  EXPECT_GT(peak_bytes(model, 0, files), peak_bytes(model, 0) + files);
 }
 
 TEST(Memory, ARunNeedsMoreThanTheLeast) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -126,6 +127,16 @@ double vertical_load(const ReadDeck& deck, const std::function<bool(double)>& co
   for (const ReadDeck::Load& load : deck.loads)
     if (!load.turns && counts(load.value)) sum += load.value;
   return sum;
+}
+
+TEST(KeywordDeck, TitlesAreLinesOfTheirOwn) {
+  std::string text;
+  KeywordDeck deck([&](std::string_view piece) { text += piece; });
+  const std::string longest(69, 'x');
+  for (const std::string& title : {std::string("*a\nb"), std::string("$c"), longest + "\xC3\xA9z"})
+    deck.title(title);
+  deck.finish();
+  EXPECT_EQ(text, " *a b\n $c\n" + longest + "\n");
 }
 
 TEST(KeywordDeck, HoldsTheBarAndItsPulse) {

@@ -266,6 +266,12 @@ TEST(SceneReader, MaterialsAreNamedOnTheCommandLine) {
   expect_round_trip(resolved);
 }
 
+TEST(SceneReader, LongTextsAndNamesAreReadBack) {
+  const std::string title = "title = \"\"\"\n" + std::string(3000, 'x') + "\n\"\"\"\n";
+  const std::string name = std::string(3000, 'd') + ".toml";
+  expect_round_trip(resolve_scene(SceneSource{name, kBase + title, {}}));
+}
+
 TEST(SceneReader, ScenesKeptByFinishedRunsStayReadable) {
   const fs::path kept =
       fs::path(TREAD_SOURCE_DIR) / "docs/records/performance/paper-passage/scene.resolved.toml";

@@ -80,6 +80,17 @@ TEST_F(StudyReader, KeysWithTheSameEndAreToldApart) {
             "steel.density=7790kg_m3,slab.density=1");
 }
 
+TEST_F(StudyReader, LongNamesStayApart) {
+  const std::string path(110, 'p');
+  const Study study = read(fmt::format(
+      "[study]\nscene = \"s.toml\"\n[grid]\ncorrugation.file = [\"{0}/first.txt\", \"{0}/other.txt\"]\n",
+      path));
+  ASSERT_EQ(study.points.size(), 2U);
+  for (const StudyPoint& point : study.points) EXPECT_EQ(point.name.size(), 120U) << point.name;
+  EXPECT_EQ(study.points[0].name.substr(0, 104), "file=" + path.substr(0, 99));
+  EXPECT_NE(study.points[0].name, study.points[1].name);
+}
+
 TEST_F(StudyReader, TablesCanBeValues) {
   const Study study = read(
       "[study]\nscene = \"s.toml\"\n[grid]\nmaterial.steel.damping = [{ kind = \"rayleigh_beta\", value = "
@@ -107,6 +118,9 @@ TEST_F(StudyReader, RefusesWithPlaceAndReason) {
            {head + "[set]\na = 1\n[grid]\na = [1]\n", ":4:1: a: it stands in [set] and is varied on line 6"},
            {head + "[[point]]\nname = \"x\"\n", "point: it varies nothing"},
            {head + "[[point]]\nname = \"../x\"\na = 1\n", "cannot name a folder"},
+           {head + "[[point]]\nname = \"request\"\na = 1\n",
+            ":4:8: point.name: \"request\" is a name that tread"},
+           {head + "[[point]]\nname = \"run.h5\"\na = 1\n", "choose another name"},
            {head + "[[point]]\na = 1\n[[point]]\na = 1\n",
             "two points are called \"a=1\", the first on line 3"},
            {head + "[grid]\na = [1]\n[[point]]\na = 1\n", "a [grid] or a list of [[point]], not both"},
