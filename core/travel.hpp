@@ -10,6 +10,9 @@ namespace tread {
 /// Least distance of the wheel's centre from the rail's ends [m].
 inline constexpr double kRailEndMargin = 0.02;
 
+/// Share of a turn that a part of a tyre has at the most.
+inline constexpr double kLargestPart = 0.75;
+
 /// The mass that traction drives. A guided wheel keeps its speed.
 struct DrivenWheel {
   double load = 0;      ///< static wheel load [N]

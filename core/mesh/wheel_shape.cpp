@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/millimetre.hpp"
 
 namespace tread {
 
@@ -20,22 +21,32 @@ WebLine WheelShape::web_line(double share) const {
           web_offset * 6 * s * (1 - s) + web_wave / kTop * steep};
 }
 
-void WheelShape::check() const {
-  const auto refuse = [](const char* key, double value, double least, double most, const char* reason) {
+std::vector<ShapeFault> WheelShape::faults() const {
+  std::vector<ShapeFault> list;
+  const auto require = [&](const char* name, double value, double least, double most, const char* reason) {
     if (!(value >= least && value <= most))
-      throw InputError(
-          fmt::format("wheel.{} = {} m is outside {} ... {} m: {}", key, value, least, most, reason));
+      list.push_back({fmt::format("wheel.{}", name),
+                      fmt::format("{:g} mm is outside {:g} to {:g} mm of a half wheelset: {}", value / mm,
+                                  least / mm, most / mm, reason)});
   };
-  refuse("diameter", diameter, 0.66, 1.4, "rim, brake ring and hub need their room between tread and axle");
-  refuse("axle_bore", axle_bore, 0.02, 0.11,
-         "the axle is swept about its axis and leaves a wall in the journal");
-  refuse("lateral_offset", lateral_offset, -0.03, 0.03, "the rail has to lie under the tread");
-  refuse("web_thickness", web_thickness, kThinnestWeb, kThickestWeb,
-         "the web has to fit between rim and hub");
-  refuse("web_offset", web_offset, -kMostOffset, kMostOffset, "the web has to end within rim and hub");
-  refuse("web_wave", web_wave, -kMostWave, kMostWave, "the elements of a steeper web would be skewed");
-  refuse("brake_ring_thickness", brake_ring_thickness, 0, 0.1,
-         "two rings of this thickness make up the mass");
+  require("diameter", diameter, kSmallestDiameter, kLargestDiameter,
+          "rim, brake ring and hub need their room between tread and axle; wheel.shape = \"tyre\" takes "
+          "other diameters");
+  require("axle_bore", axle_bore, kNarrowestBore, kWidestBore,
+          "the axle is swept about its axis and leaves a wall in the journal");
+  require("lateral_offset", lateral_offset, -kMostAside, kMostAside, "the rail has to lie under the tread");
+  require("web_thickness", web_thickness, kThinnestWeb, kThickestWeb,
+          "the web has to fit between rim and hub");
+  require("web_offset", web_offset, -kMostOffset, kMostOffset, "the web has to end within rim and hub");
+  require("web_wave", web_wave, -kMostWave, kMostWave, "the elements of a steeper web would be skewed");
+  require("brake_ring_thickness", brake_ring_thickness, 0, 0.1,
+          "two rings of this thickness make up the mass");
+  return list;
+}
+
+void WheelShape::check() const {
+  const std::vector<ShapeFault> list = faults();
+  if (!list.empty()) throw InputError(fmt::format("{}: {}", list.front().key, list.front().message));
 }
 
 }  // namespace tread

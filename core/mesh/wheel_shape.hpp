@@ -2,11 +2,19 @@
 // Dimensions of a half wheelset.
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/mesh/web_outline.hpp"
 
 namespace tread {
 
+/// Diameters that leave room for rim, brake ring and hub [m].
+inline constexpr double kSmallestDiameter = 0.66, kLargestDiameter = 1.4;
+/// Bores that leave axle and journal a wall [m].
+inline constexpr double kNarrowestBore = 0.02, kWidestBore = 0.11;
+/// Largest lateral offset with which the rail lies under the tread [m].
+inline constexpr double kMostAside = 0.03;
 /// Webs that fit between rim and hub [m].
 inline constexpr double kThinnestWeb = 0.01, kThickestWeb = 0.1;
 /// Largest offset and wave of a web between them [m].
@@ -16,6 +24,12 @@ inline constexpr double kMostOffset = 0.04, kMostWave = 0.03;
 struct WebLine {
   double p;      ///< from the disc's middle plane, to the field side [m]
   double slope;  ///< dp / d(share) [m]
+};
+
+/// A dimension that does not fit.
+struct ShapeFault {
+  std::string key;      ///< "wheel.diameter"
+  std::string message;  ///< value, range and reason
 };
 
 /// A half wheelset of standard gauge. The track's centre plane lies 746.5 mm from the nominal rolling circle,
@@ -35,7 +49,9 @@ struct WheelShape {
   WebLine web_line(double share) const;
   /// Least thickness of the web [m].
   double thinnest_web() const { return web_outline ? web_outline->least_thickness() : web_thickness; }
-  /// InputError for a shape that does not fit.
+  /// Dimensions outside their ranges.
+  std::vector<ShapeFault> faults() const;
+  /// InputError for the first of the faults.
   void check() const;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/error.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/rail_foot.hpp"
 #include "drivers/engine/sampling.hpp"
@@ -22,6 +23,23 @@ std::string place_of(const ProbeSpec& probe) {
   if (probe.body == "axle_box") return "axle box";
   return fmt::format("{}, x = {:g} m, y = {:g} mm, {:g} mm deep", probe.body, probe.x, 1e3 * probe.y,
                      1e3 * probe.depth);
+}
+
+/// Angle on the wheel of the point that rolls over x [m] first.
+double angle_on_wheel(const Model& model, double x) {
+  return -(x - model.scene.start_x()) / model.wheel_radius();
+}
+
+/// Throws InputError, which begins with `what`, where a part of a ring does not come to x [m].
+void require_on_wheel(const Model& model, double x, const std::string& what) {
+  const SweptBlock& tread = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  const double angle = angle_on_wheel(model, x);
+  if (tread.closed || (angle >= tread.stations.front() && angle <= tread.stations.back())) return;
+  const double start = model.scene.start_x(), radius = model.wheel_radius();
+  throw InputError(
+      fmt::format("{}: x = {:.4g} m lies beyond the part of the wheel that is there, {:.4g} to {:.4g} m; "
+                  "state an x within it, or a longer wheel.overhang",
+                  what, x, start - radius * tread.stations.back(), start - radius * tread.stations.front()));
 }
 
 }  // namespace
@@ -44,9 +62,11 @@ void Measurements::add_probe(const std::string& name, const ProbeSpec& spec) {
   const std::string what = "probe." + name;
   const SectionPlace place{spec.y, spec.depth};
   if (spec.body == "rail") probe.point = find_point(model_->mesh, model_->index.rail(), spec.x, place, what);
-  if (spec.body == "wheel")
-    probe.point = find_point(model_->mesh, model_->index.wheel(),
-                             -(spec.x - model_->scene.start_x()) / model_->wheel_radius(), place, what);
+  if (spec.body == "wheel") {
+    require_on_wheel(*model_, spec.x, what);
+    probe.point =
+        find_point(model_->mesh, model_->index.wheel(), angle_on_wheel(*model_, spec.x), place, what);
+  }
   probes_.push_back(probe);
   const std::string place_text = place_of(spec);
   if (spec.has_motion()) {

@@ -27,6 +27,9 @@ namespace tread {
 
 namespace {
 
+/// A wheel without load has no Hertz patch; this load then sets the penalty's scale [N].
+constexpr double kLeastLoad = 100;
+
 /// Friction law of the scene. A table's law refers to the spec's arrays.
 FrictionLaw friction_of(const ContactSpec& spec) {
   if (spec.friction_law == "table")
@@ -96,7 +99,7 @@ void Model::build_rail() {
   const Material& material = scene.rail_material();
   const Span length{-rail.origin, rail.length - rail.origin};
   if (rail.profile == "box") {
-    const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
+    const int evenly = std::max(1, static_cast<int>(std::lround(rail.length / sizes.contact)));
     const std::vector<Segment> segments =
         scene.wheel ? plan_rail(length, run_span(scene), zone_spans(scene), sizes).fine
                     : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
@@ -172,16 +175,17 @@ void Model::build_sleepers() {
 
 void Model::build_wheel() {
   const Material& material = scene.wheel_material();
-  const auto from_start = [&](Span span) {
-    return Span{span.first - scene.start_x(), span.last - scene.start_x()};
+  const auto on_wheel = [&](Span span) {
+    return arc_of(scene, {span.first - scene.start_x(), span.last - scene.start_x()});
   };
   std::vector<Span> zones = zone_spans(scene);
-  for (Span& zone : zones) zone = from_start(zone);
+  for (Span& zone : zones) zone = on_wheel(zone);
   if (scene.wheel->shape == "tyre") {
     const std::optional<double>& overhang = scene.wheel->overhang;
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zones, *overhang, sizes)
-                                    : plan_tyre(wheel_radius(), from_start(run_span(scene)), zones, sizes);
+    const WheelPlan plan =
+        overhang ? plan_tyre_part(wheel_radius(), arc_of(scene, {0, run}), zones, *overhang, sizes)
+                 : plan_tyre(wheel_radius(), on_wheel(run_span(scene)), zones, sizes);
     index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {material},
                                        plan.start, plan.tread));
     return;
@@ -283,8 +287,14 @@ double Model::journal_load() const {
   return carried_load(scene);
 }
 
+double Model::line_semi_axis() const {
+  return tread::line_semi_axis(wheel_radius(), scene.elastic_pair().contact_modulus(), line_load());
+}
+
 double Model::penalty_stiffness(const ContactSpec& spec) const {
-  const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
+  const HertzPatch loaded = hertz(wheel_radius(), hertz_radius_y, scene.elastic_pair().contact_modulus(),
+                                  std::max(wheel_load(), kLeastLoad));
+  const double unit_ratio = loaded.max_pressure / loaded.approach;
   // A softer penalty widens the patch; under a stiffer one the points of a face share its load unevenly.
   // [limits.md, Penalty]
   constexpr double kPerElement = 10;
@@ -313,10 +323,11 @@ void Model::build_contact(const Corrugation& shape) {
   const ContactSpec& spec = *scene.contact;
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
-  hertz_radius_y = lateral_gap(rail, wheel).radius;
+  const LateralGap gap = lateral_gap(rail, wheel);
+  hertz_radius_y = gap.radius;
+  line_width = scene.plane_strain ? scene.rail->width : gap.width;
   const double modulus = scene.elastic_pair().contact_modulus();
-  // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
-  hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
+  hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, wheel_load() > 0 ? wheel_load() : kLeastLoad);
 
   ContactOptions options;
   options.rail_block = index.rail_cap;
@@ -380,20 +391,6 @@ std::vector<std::int64_t> Model::connected_slots() const {
   add(journal.slots());
   add(torque.slots());
   return slots;
-}
-
-std::int64_t Model::elements() const {
-  std::int64_t sum = 0;
-  for (const SweptBlock& block : mesh.blocks) sum += block.elements();
-  for (const HexBody& body : mesh.bodies) sum += body.elements();
-  return sum;
-}
-
-std::int64_t Model::nodes() const {
-  std::int64_t sum = 0;
-  for (const SweptBlock& block : mesh.blocks) sum += block.nodes();
-  for (const HexBody& body : mesh.bodies) sum += body.nodes();
-  return sum;
 }
 
 }  // namespace tread

@@ -72,10 +72,12 @@ struct Model {
   std::unique_ptr<Contact> contact;
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
+  double line_width = 0;      ///< of a line contact, for which hertz_patch is too long [m]; otherwise 0
 
   bool has_branches() const;
-  double wheel_load() const;  ///< static vertical contact force [N]
-  double line_load() const { return wheel_load() / scene.rail->width; }  ///< of a slice [N/m]
+  double wheel_load() const;                                      ///< static vertical contact force [N]
+  double line_load() const { return wheel_load() / line_width; }  ///< of a line contact [N/m]
+  double line_semi_axis() const;                                  ///< of a line contact [m]
   double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
   std::int64_t elements() const;

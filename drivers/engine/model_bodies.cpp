@@ -51,6 +51,20 @@ void Model::tie_blocks() {
   ties.emplace(mesh, tie_specs, tied);
 }
 
+std::int64_t Model::elements() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.elements();
+  for (const HexBody& body : mesh.bodies) sum += body.elements();
+  return sum;
+}
+
+std::int64_t Model::nodes() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.nodes();
+  for (const HexBody& body : mesh.bodies) sum += body.nodes();
+  return sum;
+}
+
 void Model::add_lumped_mass(double* of_nodes) const {
   internal->lumped_mass(of_nodes);
   for (const auto& body : body_forces) body->add_mass(of_nodes);

@@ -56,6 +56,19 @@ PlaneCurve running_surface(const RailSpec& rail) {
   return rail.profile == "box" ? crowned(rail.width, rail.crown_radius).surface : rail_profile(rail).running;
 }
 
+/// InputError if the wheel stands on its flange.
+void require_tread(const PlaneCurve& wheel, const Touching& place, double lateral_offset) {
+  constexpr double kDeepest = 12e-3;  // of the tread and its transition to the flange [m]
+  const auto height = [&](double y) { return wheel.at(wheel.at_x(y)).position.y; };
+  const double depth = height(place.wheel_y) - height(0);
+  if (depth <= kDeepest) return;
+  throw InputError(fmt::format(
+      "wheel.lateral_offset = {:.2f} mm: the wheel's flange stands on the rail, {:.1f} mm below the nominal "
+      "rolling circle; the patch has to lie {:.0f} mm below it at most: state a larger offset, which is "
+      "positive to the field side, or shift the profiles by wheel.profile_shift and rail.profile_shift",
+      1e3 * lateral_offset, 1e3 * depth, 1e3 * kDeepest));
+}
+
 /// InputError if the rail is too steep where the profiles touch.
 void require_gentle(const Touching& place, double lateral_offset) {
   constexpr double kSteepest = 0.5;
@@ -68,7 +81,8 @@ void require_gentle(const Touching& place, double lateral_offset) {
       std::atan(kSteepest) * 180 / std::numbers::pi));
 }
 
-/// The bands lie about the place where the rigid profiles touch. InputError if the rail is too steep there.
+/// The bands lie about the place where the rigid profiles touch, or about the usual one if that is near; for
+/// CN60 and LMA half-way between both otherwise. InputError if the rail is too steep where they touch.
 Bands bands_of(const Scene& scene) {
   const bool box = !scene.rail || scene.rail->profile == "box";
   const bool tyre = scene.wheel && scene.wheel->shape == "tyre";
@@ -78,8 +92,10 @@ Bands bands_of(const Scene& scene) {
   const RailSpec& rail = *scene.rail;
   const WheelSpec& wheel = *scene.wheel;
   if (box && rail.crown_radius == 0 && wheel.profile == "cylinder") return usual;  // they touch all across
-  const Touching place = touching(running_surface(rail), box ? 0 : rail.inclination,
-                                  wheel_profile(wheel).surface, wheel.lateral_offset);
+  const PlaneCurve tread = wheel_profile(wheel).surface;
+  const Touching place =
+      touching(running_surface(rail), box ? 0 : rail.inclination, tread, wheel.lateral_offset);
+  require_tread(tread, place, wheel.lateral_offset);
   require_gentle(place, wheel.lateral_offset);
   // One band for all places that are near: offsets of some mm then have the same mesh.
   // The surfaces of CN60 and LMA almost fit: with offsets of -1.5, -2, -3 mm rigid ones touch at y = -16,

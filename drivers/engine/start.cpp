@@ -134,6 +134,7 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
   for (const HexBody& body : model.mesh.bodies)
     for (std::int64_t i = 3 * body.base; body.spins && i < 3 * (body.base + body.slots()); ++i)
       fields.velocity[static_cast<std::size_t>(i)] *= spin_ratio;
+  if (run_in) bend_axle(model, (1 - spin_ratio) * run_in->bending_speed, fields);  // does not spin
 }
 
 void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& fields) {

@@ -117,7 +117,7 @@ class AssembledBodies {
   }
 
   /// From above, material damping aside; with dampers as the springs (k + 2 c / dt) / stiffening that
-  /// they are at the limit of the step dt, or without them [rad/s].
+  /// they are at the limit of the step dt, or without them [rad/s]. NumericalError if it is not finite.
   double frequency() const { return frequency_with(springs_); }
   double frequency(const Stiffening& material, double dt) const {
     std::vector<Spring> springs = springs_;
@@ -132,7 +132,14 @@ class AssembledBodies {
       system_.apply(x, y);
       add_springs(springs, x, y);
     };
-    return highest_frequency(elastic, inverse_mass_).omega;
+    const double omega = highest_frequency(elastic, inverse_mass_).omega;
+    if (!std::isfinite(omega))
+      throw NumericalError(fmt::format(
+          "time step: the highest frequency of the assembled bodies is {} rad/s: a stiffness or mass is no "
+          "finite number, or an element has no shape; check the constants of the materials and the meshes of "
+          "bodies from files",
+          omega));
+    return omega;
   }
 
   StaticSystem system_;

@@ -49,13 +49,21 @@ double half_patch(const Scene& scene) {
   return scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
 }
 
+bool stands(const Scene& scene) {
+  constexpr double kHardly = 1e-3;  // [m]
+  if (!scene.motion) return true;
+  const Travel travel = travel_of(scene);
+  return scene.motion->speed == 0 && travel.last - travel.first < kHardly;
+}
+
 }  // namespace
 
 Span zone_span(const Scene& scene) {
   const double half = half_patch(scene);
   const ZoneSpec stated = scene.solution_zone();
   const Span zone{stated.start - half, stated.end() + half};
-  const bool elsewhere = !scene.motion && (zone.first > 0 || zone.last < 0);
+  const double start = scene.start_x();
+  const bool elsewhere = stands(scene) && (zone.first > start || zone.last < start);
   return elsewhere ? run_span(scene) : zone;
 }
 
@@ -174,6 +182,17 @@ std::vector<Span> zones_within(const Span& run, std::vector<Span> zones, double 
 
 }  // namespace
 
+Span arc_of(const Scene& scene, Span track) {
+  if (!scene.motion) return track;
+  const double way = scene.motion->speed * scene.motion->duration;
+  const double slip = scene.motion->spin_ratio() - 1;  // of the way
+  const double half = half_patch(scene);
+  if (std::abs(slip) * way <= 0.5 * half) return track;
+  const auto lead = [&](double x) { return slip * std::clamp(x, 0.0, way); };
+  return {track.first + std::min(0.0, lead(track.first + half)),
+          track.last + std::max(0.0, lead(track.last))};
+}
+
 NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, const MeshSizes& sizes) {
   run.first = std::max(run.first, rail.first);
   run.last = std::min(run.last, rail.last);
@@ -256,6 +275,7 @@ WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const Mesh
   const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
   zones = joined(zones, 0.5 * pitch);
   if (zones.empty()) zones.push_back({0, 0});
+  if (zones.back().last - zones.front().first > turn) zones = {{zones.front().first, zones.back().last}};
   run = {std::min(run.first, zones.front().first), std::max(run.last, zones.back().last)};
 
   // Lengths on the rolling circle, from the end of the last zone backwards.
@@ -296,6 +316,7 @@ WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const Mesh
 
 WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones, double overhang,
                          const MeshSizes& sizes) {
+  run.last = std::min(run.last, run.first + kLargestPart * 2 * std::numbers::pi * radius - 2 * overhang);
   const Span all{run.first - overhang, run.last + overhang};
   run = {std::max(all.first, run.first - patch_reach(radius)),
          std::min(all.last, run.last + patch_reach(radius))};

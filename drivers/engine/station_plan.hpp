@@ -42,6 +42,12 @@ Span zone_span(const Scene& scene);
 /// zone_span() and those of the tables [zone.NAME], in order.
 std::vector<Span> zone_spans(const Scene& scene);
 
+/// Stretch of the tread that meets a stretch of track, both counted from the wheel's start [m]. A stated
+/// creepage turns the wheel by more or less than its way, and friction may bring it to roll: the arc covers
+/// both cases and all between. It is the stretch itself where they differ by less than the arcs have to
+/// spare.
+Span arc_of(const Scene& scene, Span track);
+
 /// Segments of the fine block and of the coarse block tied to it; they cover the same length and nest.
 struct NestedSegments {
   std::vector<Segment> fine;
@@ -56,7 +62,7 @@ NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, co
 /// Along a rail without a wheel: one pitch, that of the tied coarse blocks. Waves run along all of it.
 NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes);
 
-/// Around the wheel. Its stretches of the track are counted from the wheel's start.
+/// Around the wheel. Zones and runs are its arcs, arc_of().
 struct WheelPlan {
   double start = 0;  ///< angle of the first station [rad]
   std::vector<Segment> tread;
@@ -68,12 +74,13 @@ struct WheelPlan {
 /// of the turn.
 WheelPlan plan_wheel(double radius, const std::vector<Span>& zones, const MeshSizes& sizes);
 
-/// Around a tyre, nothing tied to it: h over the arcs that meet the zones, which lie within a turn, approach
-/// pitch over what meets the rest of `run`, growing to twice the coarse quads' size over the rest of the
-/// turn.
+/// Around a tyre, nothing tied to it: h over the arcs that meet the zones, or all around where these reach
+/// over more than a turn, approach pitch over what meets the rest of `run`, growing to twice the coarse
+/// quads' size over the rest of the turn.
 WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const MeshSizes& sizes);
 
-/// Around the part of a tyre that rolls over `run`, and `overhang` [m] of tread before and behind it.
+/// Around the part of a tyre that rolls over `run`, and `overhang` [m] of tread before and behind it,
+/// together kLargestPart of a turn at the most.
 WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones, double overhang,
                          const MeshSizes& sizes);
 

@@ -59,7 +59,7 @@ void StepFeatures::add_wheel(const Model& model, double patch_y) {
   if (const double torque = full_torque(model); torque != 0)
     add<Torque>(*model.scene.motion, torque, model.torque, bore);
   if (!model.contact) return;
-  add<WheelRailContact>(*model.contact, model.mass.data());
+  add<WheelRailContact>(*model.contact, model.mass.data(), patch_y);
   const double middle = model.scene.zone_start + 0.5 * model.scene.zone_length;
   record_ = add<SurfaceRecord>(*model.contact, *model.internal, block(model.index.rail_cap),
                                SurfaceRecord::Place{patch_y, middle});

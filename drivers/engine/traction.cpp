@@ -59,12 +59,17 @@ double start_creepage(const Model& model, double traction) {
   const double stated = model.scene.motion ? model.scene.motion->creepage : 0;
   if (stated != 0 || traction == 0) return stated;
   const double load = model.wheel_load();
+  const double friction = model.contact->friction_at_rest(model.scene.start_x());
+  if (model.line_width > 0) {
+    const double sticking = std::sqrt(1 - std::abs(traction) / friction);  // part of the patch [Carter 1926]
+    return std::copysign(friction * model.line_semi_axis() / model.wheel_radius() * (1 - sticking), traction);
+  }
   const double cell = std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y) / kCells;
   const half_space::SteadyCase rolling{model.scene.elastic_pair().alike(),
                                        model.wheel_radius(),
                                        model.hertz_radius_y,
                                        load,
-                                       model.contact->friction_at_rest(model.scene.start_x()),
+                                       friction,
                                        std::abs(traction) * load,
                                        cell};
   return std::copysign(half_space::steady_summary(rolling, cell).creepage, traction);

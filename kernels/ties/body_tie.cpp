@@ -117,6 +117,7 @@ class TieMaker {
       for (std::size_t k = 0; k < 4; ++k)
         made.primary[k] = primary.nodes[primary.faces[index(place.face)][k]].node;
     }
+    if (!body_leads) require_shapes(tied.farthest);
     return tied;
   }
 
@@ -169,6 +170,17 @@ class TieMaker {
     const std::vector<int>& line = path_of(block_, spec_.path);
     const int station = static_cast<int>(i / line.size());
     block_.node_shift[block_.slot(line[i % line.size()], station)] += to_local(block_, station, 0, shift);
+  }
+
+  /// InputError if moved nodes fold an element of the body. `farthest`: the longest way of a node [m].
+  void require_shapes(double farthest) const {
+    for (std::size_t e = 0; e < body_.mesh.elements.size(); ++e)
+      if (!(hex_shape(body_.mesh.corners(e)).smallest_jacobian > 0))
+        throw InputError(
+            fmt::format("{} = \"{}\": the nodes of the set move by up to {:.3f} mm onto the faces of the {}, "
+                        "which folds element {} of the file; correct the body's origin_x, origin_y or "
+                        "origin_z, or make the layer of elements at the set thicker",
+                        spec_.key, spec_.set, farthest / mm, block_.name, body_.mesh.element_number[e]));
   }
 
   const BodyTieSpec& spec_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -130,6 +131,18 @@ TEST(BodyTie, IsRefusedWithThePlaceAndTheWayOut) {
   EXPECT_NE(refusal(block_on_body(12, 5, 0), other).find("its faces cover 60.0 %"), std::string::npos)
       << refusal(block_on_body(12, 5, 0), other);
   EXPECT_EQ(refusal(block_on_body(12, 5, 0.003), spec), "");
+}
+
+/// A layer of 2 mm, whose upper nodes would move down by 3 mm.
+TEST(BodyTie, RefusesElementsThatMovedNodesFold) {
+  Mesh mesh = block_on_body(5, 12, -0.003);
+  for (Vec3& at : mesh.bodies[0].mesh.nodes) at.z = std::max(at.z, 0.001);
+  const std::string folded = refusal(mesh, {0, "top", "body.x.set", 0, "bottom", true});
+  EXPECT_NE(folded.find("body.x.set = \"top\""), std::string::npos) << folded;
+  EXPECT_NE(folded.find("up to 3.000 mm onto the faces of the upper, which folds element "),
+            std::string::npos)
+      << folded;
+  EXPECT_NE(folded.find("origin_z"), std::string::npos) << folded;
 }
 
 TEST(BodyTie, LeavesNodesWithinTheDigitsOfAFile) {

@@ -128,6 +128,10 @@ TEST(Measurements, AProbeOutsideItsBodyIsRefused) {
                       "probe.w.quantity=stress"}),
             "");
   EXPECT_NE(error_of({"probe.p.y=60 mm"}).find("probe.p: y = 60 mm lies beyond"), std::string::npos);
+  EXPECT_NE(error_of({"wheel.bore=guided", "wheel.overhang=20 mm", "scene.gravity=0 m/s2",
+                      "probe.p.body=wheel", "probe.p.quantity=stress", "probe.p.x=1 m"})
+                .find("probe.p: x = 1 m lies beyond"),
+            std::string::npos);
 }
 
 TEST(ProbeKeys, AreCheckedAgainstTheScene) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/geometry/built_in_profiles.hpp"
 #include "drivers/engine/rail_beam.hpp"
 #include "drivers/engine/sections.hpp"
 #include "tests/tyre_scene.hpp"
@@ -49,6 +51,44 @@ TEST(SceneSections, FineColumnsOfATyreBesideTheMiddle) {
   const MeshSizes sizes = mesh_sizes(scene);
   EXPECT_LT(widest_about(box_rail_section(scene, sizes), -24 * mm), 1.3 * sizes.contact);
   EXPECT_LT(widest_about(tyre_section(scene, sizes), -24 * mm), 1.3 * sizes.contact);
+}
+
+/// The message with which a wheel's place over the rail is refused.
+std::string refusal(const Scene& scene) {
+  try {
+    rail_sections(scene, mesh_sizes(scene));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SceneSections, AWheelOnItsFlangeIsRefused) {
+  for (const char* offset : {"-5", "-10", "-20", "-25", "-30"}) {
+    const std::string message = refusal(smooth({fmt::format("wheel.lateral_offset={} mm", offset)}));
+    EXPECT_NE(message.find(fmt::format(
+                  "wheel.lateral_offset = {}.00 mm: the wheel's flange stands on the rail", offset)),
+              std::string::npos)
+        << message;
+    EXPECT_NE(message.find("positive to the field side"), std::string::npos) << message;
+  }
+  for (const char* offset : {"-2.5", "0", "30"})
+    EXPECT_EQ(refusal(smooth({fmt::format("wheel.lateral_offset={} mm", offset)})), "accepted") << offset;
+}
+
+/// Tables whose y = 0 lies on the root of the flange, on its tip and at the side of the tread, and whose z =
+/// 0 lies elsewhere.
+TEST(SceneSections, TheHeightOfATreadIsThatOfItsOwnTable) {
+  const PlaneCurve surface = built_in_wheel("LMA").surface;
+  for (const double shift : {30 * mm, 50 * mm, -30 * mm}) {
+    Scene scene = smooth({});
+    for (double y = -69.5 * mm; y < 60 * mm; y += 0.5 * mm) {
+      scene.wheel->profile_y.push_back(y + shift);
+      scene.wheel->profile_z.push_back(surface.at(surface.at_x(y)).position.y - 0.1);
+    }
+    scene.wheel->lateral_offset += shift;
+    EXPECT_EQ(refusal(scene), "accepted") << shift;
+  }
 }
 
 /// A track goes on before the rail, not on a stretch of it that has no fastenings.

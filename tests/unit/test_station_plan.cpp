@@ -1,14 +1,18 @@
 // Stations of rail and wheel: no element much shorter than its neighbours, wherever run and zone end.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "drivers/engine/model.hpp"
 #include "drivers/engine/station_plan.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -131,6 +135,54 @@ TEST(StationPlan, CoarseMeshesStayAsTheyAre) {
   sizes.margin = 0.1;
   const NestedSegments plan = plan_rail({-1, 12}, {-0.04, 9}, {{5, 5.2}}, sizes);
   EXPECT_LE(largest_pitch(-1, plan.fine, 0, 9), 1.001 * sizes.contact * sizes.approach_ratio);
+}
+
+/// Places of the rail meet the wheel anywhere between those of the stated spin and of rolling.
+TEST(StationPlan, ArcsFollowTheSpin) {
+  const auto arc = [](const char* creepage) {
+    const Scene scene = samples::tyre_scene({"motion.speed=100 m/s", "motion.duration=10 ms",
+                                             "rail.length=2 m", fmt::format("motion.creepage={}", creepage)});
+    return arc_of(scene, {0.48, 0.62});
+  };
+  for (const char* small : {"0", "0.002", "-0.005"}) {
+    EXPECT_EQ(arc(small).first, 0.48) << small;
+    EXPECT_EQ(arc(small).last, 0.62) << small;
+  }
+  const Span locked = arc("-2");
+  EXPECT_LT(locked.first, -0.01);
+  EXPECT_GT(locked.first, -0.02);
+  EXPECT_EQ(locked.last, 0.62);
+  const Span driven = arc("1");  // three turns a turn of rolling
+  EXPECT_EQ(driven.first, 0.48);
+  EXPECT_NEAR(driven.last, 3 * 0.62, 1e-12);
+}
+
+TEST(StationPlan, ALockedWheelIsFineWhereItSlides) {
+  const std::vector<std::vector<std::string>> bores = {
+      {}, {"wheel.bore=guided", "wheel.overhang=60 mm", "scene.gravity=0 m/s2"}};
+  for (std::vector<std::string> keys : bores) {
+    keys.insert(keys.end(), {"motion.creepage=-2", "motion.duration=1 ms", "solution_zone.length=20 mm"});
+    const Model model(samples::tyre_scene(keys));
+    const StationFinder stations(model.mesh.blocks[static_cast<std::size_t>(model.index.tread)]);
+    for (const double x : {-7e-3, 0.0, 7e-3, 60e-3})
+      EXPECT_LE(model.wheel_radius() * stations.find(-x / model.wheel_radius()).pitch,
+                1.01 * model.sizes.contact)
+          << keys.front() << " at " << x;
+  }
+}
+
+/// Zones whose arcs overlap after a turn.
+TEST(StationPlan, ATyreIsFineAllAroundWhereArcsOverlap) {
+  const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+  const WheelPlan plan = plan_tyre(0.43, {0, 4}, {{0.05, 0.1}, {3, 3.1}}, sizes);
+  EXPECT_NEAR(length_of(plan.tread), 2 * std::numbers::pi, 1e-9);
+  EXPECT_LE(0.43 * largest_pitch(0, plan.tread, 0, 7), 1.001 * sizes.contact);
+}
+
+TEST(StationPlan, APartOfATyreIsNoRing) {
+  const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+  const WheelPlan plan = plan_tyre_part(0.43, {0, 9}, {{0.05, 0.1}}, 0.1, sizes);
+  EXPECT_NEAR(length_of(plan.tread), 1.5 * std::numbers::pi, 1e-9);
 }
 
 TEST(StationPlan, ATyreIsFineInEveryZone) {

@@ -68,8 +68,7 @@ void WheelRailContact::end_sample(const StepState& step, Sample& sample) const {
   sample.max_penetration = totals.max_penetration;
   const double speed = step.wheel.velocity.x;
   sample.spin_creepage = std::abs(speed) > kLeastSpeed ? -mean_normal().y * step.wheel.spin / speed : 0.0;
-  const SurfacePair& surfaces = contact_->surfaces();
-  sample.corrugation_depth = surfaces.depth_at(sample.wheel_x, surfaces.corrugation().centre());
+  sample.corrugation_depth = contact_->surfaces().depth_at(sample.wheel_x, patch_y_);
 }
 
 /// Pressure-weighted mean of the normals into the rail; zero without contact.

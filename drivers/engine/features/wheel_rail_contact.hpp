@@ -9,8 +9,9 @@ namespace tread {
 
 class WheelRailContact final : public Feature {
  public:
-  /// Keeps references. `mass`: scalar node field [kg]
-  WheelRailContact(Contact& contact, const double* mass) : contact_(&contact), mass_(mass) {}
+  /// Keeps references. `mass`: scalar node field [kg]; `patch_y`: centre of the preload's patch [m]
+  WheelRailContact(Contact& contact, const double* mass, double patch_y)
+      : contact_(&contact), mass_(mass), patch_y_(patch_y) {}
 
   const char* name() const override { return "contact"; }
   std::vector<PhaseInfo> phases() const override;
@@ -28,6 +29,7 @@ class WheelRailContact final : public Feature {
 
   Contact* contact_;
   const double* mass_;
+  double patch_y_;
 };
 
 }  // namespace tread
