@@ -2,7 +2,8 @@
 """scripts/accuracy_table.py [--check]: writes the tables of docs/explanation/how-accurate.md and of README.md, between their marks,
 from the pages that `tread verify -o docs/records/verification` has left.
 
---check: writes nothing; exit status 1 where a page holds another table.
+--check: writes nothing; exit status 1 where a page holds another table, or where docs/records/verification.md, which collects
+those pages, holds another text of one.
 """
 
 import argparse
@@ -14,6 +15,7 @@ from typing import NamedTuple
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "docs" / "records" / "verification"
+COLLECTED = ROOT / "docs" / "records" / "verification.md"  # by scripts/verification_page.sh
 
 
 class Row(NamedTuple):
@@ -89,6 +91,13 @@ def failures() -> str:
     return text
 
 
+def not_collected() -> list[pathlib.Path]:
+    """Pages whose text the collected page lacks."""
+    collected = COLLECTED.read_text(encoding="utf-8")
+    return [page for page in sorted(PAGES.glob("*.md"))
+            if page.read_text(encoding="utf-8").replace("](", "](verification/") not in collected]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
@@ -110,6 +119,9 @@ def main() -> int:
             differs = True
         else:
             path.write_text(written, encoding="utf-8")
+    for page in not_collected() if check else []:
+        print(f"{page}: {COLLECTED} holds another text of it; run scripts/verification_page.sh --collect", file=sys.stderr)
+        differs = True
     return 1 if differs else 0
 
 

@@ -23,9 +23,7 @@ class Commands : public testing::Test {
     const int code = program_.call(arguments);
     return {code, program_.out(), program_.errors()};
   }
-  std::string scene(const std::string& name) const {
-    return std::filesystem::path(TREAD_SOURCE_DIR) / "scenes" / name;
-  }
+  std::string scene(const std::string& name) const { return scene_word(name); }
   std::string content(const char* name) const { return content_of(folder_ / name); }
 
   TemporaryFolder temporary_;

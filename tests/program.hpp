@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "io/text/text.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread::samples {
@@ -52,12 +53,18 @@ inline pid_t child(const std::function<void()>& action) {
   ::_exit(0);
 }
 
+/// A shipped scene as a word of a shell: the path of the sources may have blanks.
+inline std::string scene_word(const std::string& name) {
+  return shell_word(std::filesystem::path(TREAD_SOURCE_DIR) / "scenes" / name);
+}
+
 /// Starts the program in a shell, with its output in `folder`/out and `folder`/errors. `before`: commands
 /// that the shell runs first. `launcher`: words before the program.
 inline pid_t start_program(const std::string& arguments, const std::filesystem::path& folder,
                            const std::string& before = "", const std::string& launcher = "") {
-  const std::string command = fmt::format("{} exec {} {} {} >{}/out 2>{}/errors", before, launcher,
-                                          TREAD_EXECUTABLE, arguments, folder.string(), folder.string());
+  const std::string command =
+      fmt::format("{} exec {} {} {} >{} 2>{}", before, launcher, shell_word(TREAD_EXECUTABLE), arguments,
+                  shell_word(folder / "out"), shell_word(folder / "errors"));
   return child([&] {
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);

@@ -16,7 +16,7 @@ void add_cache(CLI::App& app, const std::string& /*command_line*/) {
       ->check(CLI::IsMember({"show", "clear"}));
   add_cache_option(command, options->place);
   command.add_flag("--json", options->json, "JSON on stdout");
-  command.callback([options] { tend_cache(*options); });
+  command.callback([options] { report_problems(options->json, [&] { tend_cache(*options); }); });
 }
 
 }  // namespace tread

@@ -48,6 +48,8 @@ void require_file(const std::string& stated, const char* kind, const std::vector
     throw InputError(fmt::format("the name of the {} is empty; state a file or a shipped one", kind));
   std::error_code ignored;
   if (std::filesystem::exists(stated, ignored)) return;
+  if (const std::string near = similar_text(stated, shipped); !near.empty())
+    throw InputError(fmt::format("cannot read {}: there is no such file; did you mean {}?", stated, near));
   const std::string share = stated_share();
   if (shipped.empty())
     throw InputError(
@@ -60,8 +62,12 @@ void require_file(const std::string& stated, const char* kind, const std::vector
 
 }  // namespace
 
-void require_scene_file(const std::string& stated) {
+void require_scene_or_study(const std::string& stated) {
   require_file(stated, "scene", shipped_scenes());
+}
+
+void require_scene_file(const std::string& stated) {
+  require_scene_or_study(stated);
   if (has_line(stated, "[study]"))
     throw InputError(fmt::format("{} is a study, not a scene: `tread sweep {}` runs it", stated, stated));
 }
@@ -129,17 +135,8 @@ void add_cache_option(CLI::App& command, std::string& place) {
       "or ~/.cache)");
 }
 
-CLI::Option* or_shipped(CLI::Option* option, std::vector<std::string> (*names)()) {
-  return option->transform([names](const std::string& stated) {
-    const std::vector<std::string> shipped = names();
-    std::string found = find_scene(stated).string();
-    std::error_code ignored;
-    if (!std::filesystem::exists(found, ignored))
-      if (const std::string near = similar_text(stated, shipped); !near.empty())
-        throw InputError(
-            fmt::format("cannot read {}: there is no such file; did you mean {}?", stated, near));
-    return found;
-  });
+CLI::Option* or_shipped(CLI::Option* option) {
+  return option->transform([](const std::string& stated) { return find_scene(stated).string(); });
 }
 
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
@@ -151,8 +148,7 @@ CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
                   "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
       ->allow_extra_args(false);
   return or_shipped(
-      command.add_option("scene", arguments.scene, "scene file (TOML), or the name of a shipped scene"),
-      shipped_scenes);
+      command.add_option("scene", arguments.scene, "scene file (TOML), or the name of a shipped scene"));
 }
 
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {

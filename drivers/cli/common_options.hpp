@@ -47,10 +47,12 @@ CLI::Option* add_cost_option(CLI::App& command, std::string& cost);
 void add_study_options(CLI::App& command, StudyOptions& options);
 
 /// Lets an option that names a scene or a study take the name of a shipped one, too. Files that are there
-/// come first. `names`: those that a misspelt one may mean.
-CLI::Option* or_shipped(CLI::Option* option, std::vector<std::string> (*names)());
+/// come first.
+CLI::Option* or_shipped(CLI::Option* option);
 
-/// InputError where the path that or_shipped() left leads to no file, or to a study.
+/// InputError where the path that or_shipped() left leads to no file.
+void require_scene_or_study(const std::string& stated);
+/// InputError where it leads to no file, or to a study.
 void require_scene_file(const std::string& stated);
 /// InputError where it leads to no file, or to a scene.
 void require_study_file(const std::string& stated);

@@ -6,7 +6,6 @@
 #include "drivers/cli/common_options.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/studies/dial/dial_study.hpp"
-#include "io/files/share_folder.hpp"
 
 namespace tread {
 
@@ -14,8 +13,7 @@ void add_dial(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<DialOptions>();
   options->common.origin = {program_name(), command_line};
   CLI::App& command = *app.add_subcommand("dial", "cost and error of the settings of a passage");
-  or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"),
-             shipped_scenes)
+  or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"))
       ->required();
   command
       .add_option("--base", options->axes.base,
@@ -30,7 +28,11 @@ void add_dial(CLI::App& app, const std::string& command_line) {
   command.add_option("--against", options->against,
                      "point with which single settings are compared (default: the base)");
   add_cost_option(command, options->cost);
-  add_study(command, options, turn_dial);
+  add_study(
+      command, options, +[](const DialOptions& stated) {
+        require_scene_or_study(stated.file.string());
+        return turn_dial(stated);
+      });
 }
 
 }  // namespace tread

@@ -6,7 +6,6 @@
 #include "drivers/cli/common_options.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/studies/study/sweep.hpp"
-#include "io/files/share_folder.hpp"
 
 namespace tread {
 
@@ -15,8 +14,7 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   options->common.origin = {program_name(), command_line};
   CLI::App& command = *app.add_subcommand(
       "sweep", "run a study: a scene with varied keys, one run a point; continues a stopped one");
-  or_shipped(command.add_option("study", options->study, "study file (TOML), or the name of a shipped one"),
-             shipped_studies)
+  or_shipped(command.add_option("study", options->study, "study file (TOML), or the name of a shipped one"))
       ->required();
   add_study(
       command, options, +[](const SweepOptions& stated) {

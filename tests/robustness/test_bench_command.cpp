@@ -11,6 +11,7 @@
 #include <set>
 
 #include "io/text/json.hpp"
+#include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -22,8 +23,8 @@ class Bench : public testing::Test {
  protected:
   /// Exit code; what it prints is left in `file`.
   int call(const std::string& arguments, const std::string& file = "out") const {
-    const std::string command =
-        fmt::format("{} bench {} >{} 2>/dev/null", TREAD_EXECUTABLE, arguments, (folder_ / file).string());
+    const std::string command = fmt::format("{} bench {} >{} 2>/dev/null", shell_word(TREAD_EXECUTABLE),
+                                            arguments, (folder_ / file).string());
     return WEXITSTATUS(std::system(command.c_str()));
   }
   std::vector<JsonRecord> records(const std::string& file = "out") const {
@@ -145,9 +146,9 @@ TEST_F(Bench, ScalingRefusesWhatChangesASceneWithoutOne) {
 }
 
 TEST_F(Bench, HotspotsCoverTheWholeStep) {
-  ASSERT_EQ(call(fmt::format("hotspots {}/scenes/tyre.toml -t 2 --quiet --steps 40 --set "
+  ASSERT_EQ(call(fmt::format("hotspots {} -t 2 --quiet --steps 40 --set "
                              "\"scene.element_size=8 mm\" --set \"motion.duration=0.05 ms\" {}",
-                             TREAD_SOURCE_DIR, kSmoke)),
+                             samples::scene_word("tyre.toml"), kSmoke)),
             0);
   double shares = 0;
   std::set<std::string> phases;
@@ -169,9 +170,8 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
 
 TEST_F(Bench, RanksHoldEachElementOnceAndWhatIsSentIsReceived) {
   const auto ranks = [this](int count, const std::string& more) {
-    return call(
-        fmt::format("ranks {}/scenes/tyre.toml -t 1 --ranks {} --set \"scene.element_size=8 mm\" {} {}",
-                    TREAD_SOURCE_DIR, count, more, kSmoke));
+    return call(fmt::format("ranks {} -t 1 --ranks {} --set \"scene.element_size=8 mm\" {} {}",
+                            samples::scene_word("tyre.toml"), count, more, kSmoke));
   };
   ASSERT_EQ(ranks(1, ""), 0);
   const double elements = number(records().front(), "elements");

@@ -197,7 +197,7 @@ TEST_F(Commands, AStaticRunLeavesItsPatch) {
 }
 
 TEST_F(Commands, AFullStandardOutputIsAnError) {
-  const std::string command = fmt::format("{} check -t 1 {} >/dev/full 2>{}", TREAD_EXECUTABLE,
+  const std::string command = fmt::format("{} check -t 1 {} >/dev/full 2>{}", shell_word(TREAD_EXECUTABLE),
                                           scene("bar-wave.toml"), (folder_ / "errors").string());
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
   EXPECT_TRUE(has(content("errors"), "standard output")) << content("errors");
@@ -222,6 +222,11 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.at=-1 m\""), "ahead of surface.squat"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.centre=60 mm\""), "beside what the wheel"));
+  EXPECT_TRUE(has(warnings("squat.toml",
+                           "--set \"surface.waves={ kind = 'waves', wavelength = '0.2 m', length = '1 m', "
+                           "depth = '0.1 mm', at = '5 m' }\""),
+                  "does not reach surface.waves"));
+  EXPECT_TRUE(has(warnings("wheel-flat.toml", "--set \"motion.duration=1 ms\""), "so that it has no effect"));
   EXPECT_TRUE(has(warnings("corrugation-d.toml",
                            "--set motion.present=false --set vehicle.present=false --set "
                            "load.present=true --set \"load.wheel_load=90 kN\""),
@@ -283,7 +288,8 @@ TEST_F(Commands, VerifyTakesInputsAndJudges) {
   EXPECT_EQ(good.code, 0) << good.out;
   EXPECT_TRUE(has(good.out, "{\"case\": \"contact_filter\", \"inputs\": {\"radius\": \"0.43 m\""))
       << good.out;
-  EXPECT_TRUE(has(good.out, "\"bound\": 0.02, \"pass\": true")) << good.out;
+  EXPECT_TRUE(has(good.out, "\"bound\": 0.0618")) << good.out;
+  EXPECT_TRUE(has(good.out, "\"pass\": true")) << good.out;
   // So coarse a mesh misses the largest pressure, and the program says so.
   const Outcome coarse =
       call("verify hertz_sphere --quiet --json -t 1 --set \"element_size=3.6 mm\" --set \"load=60 kN\"");
@@ -326,13 +332,21 @@ TEST_F(Commands, VerifyShowsWhatIsDoneWhereACaseCannotRun) {
 }
 
 TEST_F(Commands, WrongWordsAreProblemsInJson) {
-  for (const char* wrong : {"check --json --nonsense", "check --json", "sweep --json x.toml --frm y"}) {
+  ::setenv("TREAD_CACHE_LIMIT", "-1", 1);
+  for (const auto& [wrong, answer] :
+       {std::pair{"check --json --nonsense", "--help` "},
+        {"check --json", "--help` "},
+        {"sweep --json x.toml --frm y", "--help` "},
+        {"check --json corrugation-dd", "there is no such file; did you mean corrugation-d?"},
+        {"dial --json --list tyr", "there is no such file; did you mean tyre?"},
+        {"cache show --json --cache x", "TREAD_CACHE_LIMIT: "}}) {
     const Outcome outcome = call(wrong);
     EXPECT_EQ(outcome.code, 2) << wrong;
     EXPECT_TRUE(truth_in(parse_json(outcome.out, wrong), "ok") == false && has(outcome.out, "\"ok\": false"))
         << outcome.out;
-    EXPECT_TRUE(has(outcome.out, "--help` ")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, answer)) << outcome.out;
   }
+  ::unsetenv("TREAD_CACHE_LIMIT");
 }
 
 TEST_F(Commands, DevicesAreChosenByName) {
@@ -361,7 +375,7 @@ TEST_F(Commands, WrongWordsAreNamed) {
         {"run tyr", "tread: cannot read tyr: there is no such file; did you mean tyre?"},
         {"run nope", "tread: cannot read nope: there is no such file; shipped: "},
         {"run \"\"", "tread: the name of the scene is empty"},
-        {"sweep " TREAD_SOURCE_DIR "/scenes/tyre.toml", "is a scene, not a study: `tread run"},
+        {"sweep tyre", "is a scene, not a study: `tread run"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
         {"bench compare --by foo a b", "--by: foo not in {rate,limit,instructions}"},

@@ -24,7 +24,7 @@ class CompareCommand : public ProgramTest {
     make_root();
     ASSERT_EQ(call(fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set "
                                "output.frames=0 --set \"motion.duration=1 ms\"",
-                               kTyre, folder().string())),
+                               shell_word(kTyre), folder().string())),
               0)
         << errors();
   }
@@ -83,9 +83,8 @@ TEST_F(CompareCommand, NamesWhatIsWrong) {
   EXPECT_TRUE(has(errors(), "there is no folder")) << errors();
 
   const fs::path still = root_ / "static";
-  const fs::path scene = fs::path(TREAD_SOURCE_DIR) / "scenes/sphere-on-block.toml";
-  ASSERT_EQ(call(fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\"", scene.string(),
-                             still.string())),
+  ASSERT_EQ(call(fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\"",
+                             scene_word("sphere-on-block.toml"), still.string())),
             0)
       << errors();
   EXPECT_EQ(call(fmt::format("compare {} {}", still.string(), curve().string())), 2);
@@ -94,15 +93,16 @@ TEST_F(CompareCommand, NamesWhatIsWrong) {
 
 TEST_F(CompareCommand, AndExportStatesUnitsAndDifferences) {
   const fs::path deck = root_ / "tyre.k";
-  ASSERT_EQ(call(fmt::format("export {} -t 1 -o {} --set \"scene.element_size=8 mm\"", kTyre, deck.string())),
+  ASSERT_EQ(call(fmt::format("export {} -t 1 -o {} --set \"scene.element_size=8 mm\"", shell_word(kTyre),
+                             deck.string())),
             0)
       << errors();
   EXPECT_TRUE(has(output(), "mm, ms, kg, kN, GPa"));
   EXPECT_TRUE(has(output(), "Preload: none."));
   EXPECT_TRUE(has(content_of(deck), "$ Units: mm, ms, kg, kN, GPa."));
-  EXPECT_EQ(call(fmt::format("export {} -o {} --ramp 3kg", kTyre, deck.string())), 2);
+  EXPECT_EQ(call(fmt::format("export {} -o {} --ramp 3kg", shell_word(kTyre), deck.string())), 2);
   EXPECT_TRUE(has(errors(), "--ramp \"3kg\""));
-  EXPECT_EQ(call(fmt::format("export {} -o {}", kTyre, (root_ / "none" / "tyre.k").string())), 4);
+  EXPECT_EQ(call(fmt::format("export {} -o {}", shell_word(kTyre), (root_ / "none" / "tyre.k").string())), 4);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using samples::has;
 
 class Dial : public testing::Test {
  protected:
-  static std::string scene(const char* name) { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
+  static std::string scene(const char* name) { return samples::scene_word(name); }
   int call(const std::string& arguments) const { return program_.call(arguments); }
   std::string errors() const { return program_.errors(); }
 
@@ -108,8 +108,14 @@ TEST_F(Dial, RefusesBeforeAnythingRuns) {
   EXPECT_EQ(call(tyres("--axis scene.elements=3")), 2);
   EXPECT_TRUE(has(errors(), "scene.elements")) << errors();
   EXPECT_EQ(call(tyres(two + "--cost hours")), 2);
-  EXPECT_EQ(call(fmt::format("dial {} --list", scene("bar-wave.toml"))), 2);
-  EXPECT_TRUE(has(errors(), "nothing rolls in it")) << errors();
+  // A wheel without a rail moves, but feels no contact.
+  std::string wheel = content_of(fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml");
+  wheel.erase(wheel.find("[rail]"), wheel.find("[motion]") - wheel.find("[rail]"));
+  wheel.erase(wheel.find("traction = "));
+  for (const std::string& alone : {scene("bar-wave.toml"), program_.write("wheel.toml", wheel).string()}) {
+    EXPECT_EQ(call(fmt::format("dial {} --list", alone)), 2);
+    EXPECT_TRUE(has(errors(), "nothing rolls in it")) << errors();
+  }
   for (const char* wrong : {"--error 0", "--error two", "--error 2% --quantity F_Q",
                             "--error 2% --cost hours", "--error 2% --dial nowhere"})
     EXPECT_EQ(call(fmt::format("check {} -t 1 {}", scene("tyre.toml"), wrong)), 2) << wrong;
@@ -142,8 +148,8 @@ TEST_F(Dial, AReferenceIsOfTheSamePassage) {
 TEST_F(Dial, TheKeptPassageIsOfTheDocumentedDial) {
   const fs::path docs = fs::path(TREAD_SOURCE_DIR) / "docs/records";
   ASSERT_EQ(
-      call(fmt::format("dial {} -o {} --list --reference {}", (docs / "dial/corrugation-d.toml").string(),
-                       runs_.string(), (docs / "performance/paper-passage").string())),
+      call(fmt::format("dial {} -o {} --list --reference {}", shell_word(docs / "dial/corrugation-d.toml"),
+                       runs_.string(), shell_word(docs / "performance/paper-passage"))),
       0)
       << errors();
   EXPECT_TRUE(has(program_.out(), "4mm-facets")) << program_.out();

@@ -23,7 +23,7 @@ class ExportCommand : public ProgramTest {
     return call(
         fmt::format("export {} -t 1 --quiet --set \"scene.element_size=10 mm\" --set "
                     "\"motion.duration=1 ms\" -o {} {}",
-                    kTyre, (root_ / file).string(), options));
+                    shell_word(kTyre), (root_ / file).string(), options));
   }
 };
 

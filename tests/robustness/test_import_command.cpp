@@ -16,8 +16,7 @@ namespace {
 using namespace samples;
 using nlohmann::json;
 
-const std::string kScene =
-    std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml --set \"scene.element_size=10 mm\"";
+const std::string kScene = scene_word("tyre.toml") + " --set \"scene.element_size=10 mm\"";
 
 TEST(ImportCommand, ReadsAnExportedScene) {
   const Program program;

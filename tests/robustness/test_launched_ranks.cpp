@@ -42,7 +42,7 @@ class LaunchedRanks : public ProgramTest {
   static int call_on(int ranks, const std::string& arguments) { return wait_for(start_on(ranks, arguments)); }
 
   static std::string run(const fs::path& folder, const std::string& more = "") {
-    return fmt::format("run {} -t 1 -o {} {} {}", kTyre, folder.string(), kSize, more);
+    return fmt::format("run {} -t 1 -o {} {} {}", shell_word(kTyre), folder.string(), kSize, more);
   }
 
   /// Starts a run on three ranks and waits until it has a checkpoint of its rolling.
@@ -163,7 +163,7 @@ int times(const std::string& text, const std::string& part) {
 TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
   EXPECT_EQ(call_on(3, run(folder_, "--set motion.sped=3")), 2);
   EXPECT_EQ(times(errors(), "motion.sped"), 1) << errors();
-  EXPECT_EQ(call_on(2, "check " + kTyre), 2);
+  EXPECT_EQ(call_on(2, "check " + shell_word(kTyre)), 2);
   EXPECT_EQ(times(errors(), "tread check: ranks share the work of `run` and `resume` alone"), 1) << errors();
   EXPECT_EQ(call_on(2, run(folder_, "--device emulatd")), 2);
   EXPECT_EQ(times(errors(), "--device emulatd: "), 1) << errors();

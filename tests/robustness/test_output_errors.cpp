@@ -155,7 +155,7 @@ class Descriptors : public samples::Commands {
   /// Exit code of `tread arguments`; after a signal 128 + its number.
   int shell(const std::string& before, const std::string& arguments) const {
     const std::string command = fmt::format("cd {}; exec 2>errors; {}; {} {}; exit $?", folder_.string(),
-                                            before, TREAD_EXECUTABLE, arguments);
+                                            before, shell_word(TREAD_EXECUTABLE), arguments);
     return WEXITSTATUS(std::system(command.c_str()));
   }
 };

@@ -36,7 +36,7 @@ class PreloadCache : public ProgramTest {
   static std::string run_with(const fs::path& cache, const char* folder, const std::string& more,
                               int threads = 1) {
     return fmt::format("run {} --overwrite -t {} -o {}/{} --cache {} --set \"scene.element_size=8 mm\" {}",
-                       kTyre, threads, root_.string(), folder, cache.string(), more);
+                       shell_word(kTyre), threads, root_.string(), folder, cache.string(), more);
   }
   std::vector<ContentCache::Entry> entries() const { return ContentCache(cache_, 0).entries(); }
   static bool found() { return has(errors(), "[preload] found by an earlier run"); }
@@ -105,12 +105,12 @@ TEST_F(PreloadCache, ServesTractionThatAddsLittleToTheWay) {
 
 TEST_F(PreloadCache, OfAStaticSceneAndOfAWheelThatHasBeenRolling) {
   const std::string rolling = fmt::format(
-      "run {}/scenes/smooth.toml -t 1 -o {}/{{}} --cache {} --set \"scene.element_size=8 mm\" --set "
+      "run {} -t 1 -o {}/{{}} --cache {} --set \"scene.element_size=8 mm\" --set "
       "\"motion.duration=0.05 ms\" --set slab.present=false --set \"rail.length=5.2 m\" --set "
       "\"rail.origin=2.6 m\" "
       "--set fastenings.count=8 --set \"fastenings.first=0.325 m\" --set \"solution_zone.start=20 mm\" --set "
       "\"solution_zone.length=50 mm\" --set \"output.history_interval=5 us\"",
-      TREAD_SOURCE_DIR, root_.string(), cache_.string());
+      scene_word("smooth.toml"), root_.string(), cache_.string());
   for (const char* folder : {"still1", "still2"})
     ASSERT_EQ(call(run_with(cache_, folder, "--set motion.present=false")), 0) << errors();
   EXPECT_TRUE(found());
@@ -214,7 +214,7 @@ TEST_F(PreloadCache, IsShownAndCleared) {
   const std::string at = fmt::format("export XDG_CACHE_HOME={}; unset TREAD_CACHE;", cache_.string());
   ASSERT_EQ(call(fmt::format("run {} -t 1 -o {}/usual --set \"scene.element_size=8 mm\" --set "
                              "\"motion.duration=0.05 ms\"",
-                             kTyre, root_.string()),
+                             shell_word(kTyre), root_.string()),
                  at),
             0)
       << errors();

@@ -22,9 +22,9 @@ using samples::has;
 
 class Sweep : public testing::Test {
  protected:
-  std::string scene(const char* name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
   fs::path study(const char* scene_name, const std::string& rest) const {
-    return program_.write("study.toml", fmt::format("[study]\nscene = \"{}\"\n{}", scene(scene_name), rest));
+    const fs::path scene = fs::path(TREAD_SOURCE_DIR) / "scenes" / scene_name;
+    return program_.write("study.toml", fmt::format("[study]\nscene = \"{}\"\n{}", scene.string(), rest));
   }
   /// A wave in a bar of a few elements.
   fs::path bars(const std::string& grid) const {
@@ -105,8 +105,8 @@ TEST_F(Sweep, AFolderOfOtherResultsIsLeftAlone) {
   EXPECT_TRUE(has(errors(), "it holds runs of another study (velocity=1m_s)")) << errors();
   const fs::path rail = program_.write("rail.txt", "# x [mm] height [um]\n0 1\n1 2\n");
   for (const std::string& command : std::vector<std::string>{
-           "run --overwrite " + scene("bar-wave.toml"), "paper --set motion.duration=1ms",
-           "multibody " + scene("corrugation-d.toml"), "roughness " + rail.string()}) {
+           "run --overwrite " + samples::scene_word("bar-wave.toml"), "paper --set motion.duration=1ms",
+           "multibody " + samples::scene_word("corrugation-d.toml"), "roughness " + rail.string()}) {
     EXPECT_EQ(program_.call(fmt::format("{} -o {}", command, runs_.string())), 2) << command;
     EXPECT_TRUE(has(errors(), "it holds results of `tread sweep` (sweep.csv)")) << command << errors();
   }
@@ -136,6 +136,38 @@ TEST_F(Sweep, LauncherStartsTheRuns) {
   EXPECT_TRUE(has(calls, "tread run ")) << calls;
   EXPECT_FALSE(has(calls, " -t ")) << calls;
   EXPECT_EQ(number_in(status(), "done"), 2);
+}
+
+/// Its runs have no contact force and leave no surface.
+TEST_F(Sweep, AWheelWithoutARailHasNoCurves) {
+  const fs::path file = study("tyre.toml", R"([set]
+scene.element_size = "12 mm"
+motion.duration = "10 us"
+motion.traction.mu = 0
+rail.present = false
+contact.present = false
+load.present = false
+[grid]
+motion.speed = ["10 km/h"]
+)");
+  ASSERT_EQ(sweep(file, "-t 1"), 0) << errors();
+  EXPECT_FALSE(has(content_of(runs_ / "report.html"), "Contact forces"));
+}
+
+/// Cores and programs of a cluster are not those of the machine that writes the array.
+TEST_F(Sweep, JobArrayStartsByTheLauncherOnOtherMachines) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
+  const fs::path script = program_.folder / "array.sh";
+  const std::string more =
+      fmt::format("-t 1000 --launcher \"no-such-program -N 1\" --slurm {} ", script.string());
+  ASSERT_EQ(sweep(file, more), 0) << errors();
+  EXPECT_FALSE(has(errors(), "warning")) << errors();
+  const std::string text = content_of(script);
+  EXPECT_TRUE(has(text, "tread=( no-such-program -N 1 ")) << text;
+  EXPECT_TRUE(has(text, "place=( -t 1000 )")) << text;
+  EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
+  ASSERT_EQ(sweep(file, more + "--jobs 1"), 0) << errors();
+  EXPECT_TRUE(has(content_of(script), "#SBATCH --array=0-1%1\n")) << content_of(script);
 }
 
 TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {

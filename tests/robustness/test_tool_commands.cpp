@@ -89,7 +89,8 @@ TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
     EXPECT_TRUE(has(outcome.errors, "a sine, and corrugation.kind is \"table\"; state")) << outcome.errors;
   }
   // A history with a broken row names its line.
-  std::ofstream(folder_ / "scene.resolved.toml") << std::ifstream(scene("corrugation-d.toml")).rdbuf();
+  std::ofstream(folder_ / "scene.resolved.toml")
+      << std::ifstream(fs::path(TREAD_SOURCE_DIR) / "scenes/corrugation-d.toml").rdbuf();
   std::ofstream(folder_ / "histories.csv") << "time [s],wheel_x [m],vertical_force [N]\n0,0,1\n1,1\n";
   const Outcome broken = call(good + " --json --calibrate " + folder_.string());
   EXPECT_EQ(broken.code, 2);
@@ -185,6 +186,13 @@ TEST_F(Commands, ProfileShowsWritesAndMeets) {
     EXPECT_TRUE(has(call(wrong).errors, "--against names no other body")) << wrong;
   EXPECT_EQ(call(fmt::format("profile {} --wheel --mirrored", clean.string())).code, 2);
   EXPECT_EQ(call(fmt::format("profile {} --wheel --smoothing 1", clean.string())).code, 2);
+}
+
+TEST_F(Commands, AFolderWithABlankReceivesTheOutput) {
+  const fs::path folder = folder_ / "two words";
+  fs::create_directory(folder);
+  EXPECT_EQ(samples::wait_for(samples::start_program("version", folder)), 0);
+  EXPECT_TRUE(samples::content_of(folder / "out").starts_with("tread "));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "drivers/studies/develop/development.hpp"
 #include "drivers/studies/develop/development_report.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 namespace {
@@ -168,6 +169,30 @@ TEST(Development, ProfilesGrowAsTheirWorkSays) {
     EXPECT_EQ(deepest(bands)->wavelength, 0.08);
     EXPECT_NE(verdict(development).find(response > 0 ? "feeds" : "alleviates"), std::string::npos);
   }
+}
+
+TEST(Development, TheProfileShowsTheShortestWaves) {
+  Scene scene = read_scene(
+      std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml",
+      {"scene.element_size=1 mm", "corrugation.wavelength=72 mm", "corrugation.start=0.1 m",
+       "corrugation.length=72 mm", "corrugation.apply=gap", "wear.shortest=32 mm", "wear.longest=72 mm"});
+  const auto spacing = [&] { return wear_plan(scene).start.spacing; };
+  EXPECT_EQ(wear_plan(scene).start.depth.size(), 73U);
+  EXPECT_DOUBLE_EQ(spacing(), 1e-3);
+  scene.wear->shortest = 4e-3;
+  EXPECT_NEAR(spacing(), 0.4e-3, 1e-12);
+  scene.corrugation->wavelength = 2e-3;
+  EXPECT_NEAR(spacing(), 0.2e-3, 1e-12);
+  scene.corrugation->wavelength = 0.1e-3;  // the mesh does not show it
+  EXPECT_NEAR(spacing(), 0.1e-3, 1e-12);
+  scene.corrugation->kind = "table";
+  for (int i = 0; i <= 240; ++i) {
+    scene.corrugation->table_x.push_back(0.3e-3 * i);
+    scene.corrugation->table_depth.push_back(1e-6 * (i % 3));
+  }
+  const WornProfile table = wear_plan(scene).start;
+  ASSERT_EQ(table.depth.size(), 241U);
+  EXPECT_NEAR(table.depth[2], 2e-6, 1e-12);
 }
 
 /// Rows 1 mm apart; the work falls to either side of the middle one.

@@ -16,6 +16,7 @@ namespace tread {
 namespace {
 
 constexpr double kSpacing = 1e-3;       ///< largest spacing of the profile's depths [m]
+constexpr double kDepthsPerWave = 10;   ///< least number of depths in a wave of the profile
 constexpr double kElementsPerWave = 4;  ///< least number of elements in a wave that wears
 constexpr double kElementsAcross = 2;   ///< elements across within which the work counts as noise
 constexpr double kWayBeyond = 0.02;     ///< least distance that the wheel rolls beyond the corrugation [m]
@@ -62,9 +63,23 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
                              : "the brakes stop it before"));
 }
 
-WornProfile sampled(const Corrugation& corrugation) {
+/// Spacing of a file's places, their mean, or of depths that show the shortest wave [m].
+double own_spacing(const CorrugationSpec& corrugation) {
+  const std::vector<double>& x = corrugation.table_x;
+  if (corrugation.in_file()) return (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+  return (corrugation.kind == "random" ? corrugation.shortest : corrugation.wavelength) / kDepthsPerWave;
+}
+
+/// Spacing that shows the waves that wear and those of the corrugation, down to one element [m].
+double profile_spacing(const Scene& scene) {
+  const double of_element = mesh_sizes(scene).contact / kDepthsPerWave;
+  return std::min({kSpacing, scene.wear->shortest / kDepthsPerWave,
+                   std::max(own_spacing(*scene.corrugation), of_element)});
+}
+
+WornProfile sampled(const Corrugation& corrugation, double spacing) {
   const double length = corrugation.last() - corrugation.first();
-  const auto pieces = static_cast<std::size_t>(std::ceil(length / kSpacing - 1e-9));
+  const auto pieces = static_cast<std::size_t>(std::ceil(length / spacing - 1e-9));
   WornProfile profile{corrugation.first(), length / static_cast<double>(pieces), {}};
   for (std::size_t i = 0; i <= pieces; ++i)
     profile.depth.push_back(i < pieces ? corrugation.depth(profile.x(i), corrugation.centre()) : 0.0);
@@ -81,7 +96,7 @@ WearPlan wear_plan(const Scene& scene) {
   return {wear.coefficient / scene.head_material().density,
           wear.change,
           {wear.shortest, wear.longest},
-          sampled(corrugation),
+          sampled(corrugation, profile_spacing(scene)),
           wear.across ? std::optional(kElementsAcross * mesh_sizes(scene).contact) : std::nullopt};
 }
 

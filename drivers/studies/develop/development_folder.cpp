@@ -13,6 +13,7 @@
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/studies/study/study_runner.hpp"
+#include "io/files/absolute_path.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/files/history_reader.hpp"
 #include "io/files/output_file.hpp"
@@ -33,7 +34,7 @@ constexpr const char* kStart = "from.txt";  ///< run with whose state all passag
 /// it.
 fs::path made(const fs::path& directory) {
   make_directory(directory);
-  return fs::absolute(directory).lexically_normal();
+  return absolute_path(directory);
 }
 
 /// The scene without what each passage states for itself.
@@ -69,7 +70,7 @@ void require_same(const fs::path& folder, const ResolvedScene& resolved) {
 /// beginning.
 std::string start_of(const fs::path& folder, const std::string& stated, bool begun) {
   constexpr std::size_t kLongest = 1 << 16;  // [B]
-  std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
+  std::string wanted = stated.empty() ? "" : absolute_path(stated).string();
   if (!begun) return wanted;
   std::string kept = fs::exists(folder / kStart) ? read_text_file(folder / kStart, kLongest) : "";
   if (stated.empty() || wanted == kept) return kept;

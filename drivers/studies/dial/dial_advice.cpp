@@ -35,7 +35,7 @@ Estimate cost_with(const ResolvedScene& resolved, const std::vector<std::string>
   Scene scene = resolve_scene(resolved.source, overrides).scene;
   if (hidden_quality) scene.element_size.reset();
   Model model(scene);
-  return estimate(model);
+  return estimate(model, file_bytes(resolved.source));
 }
 
 std::string settings_text(const DialRow& row) {

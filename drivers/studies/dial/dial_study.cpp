@@ -152,9 +152,9 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
 
 void require_rolling(const DialDesign& design) {
   const Scene scene = read_scene(design.study.scene);
-  if (!scene.wheel || !scene.motion)
+  if (!scene.contact || !scene.motion)
     throw InputError(
-        fmt::format("{}: nothing rolls in it; a dial compares passages of a wheel ([wheel] and "
+        fmt::format("{}: nothing rolls in it; a dial compares passages of a wheel over a rail ([contact] and "
                     "[motion])",
                     design.study.scene.string()));
 }

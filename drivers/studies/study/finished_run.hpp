@@ -23,8 +23,8 @@ struct FinishedRun {
   std::optional<double> number(const std::string& path) const { return number_in(summary, path); }
   /// Corrugation with its centre at y = 0, on which no figure along the rail depends.
   Corrugation corrugation() const;
-  /// Returns true if a wheel has rolled: histories and surface exist.
-  bool rolled() const { return scene.wheel && scene.motion; }
+  /// Returns true if a wheel has rolled over a rail: forces and surface exist.
+  bool rolled() const { return scene.contact && scene.motion; }
 };
 
 /// Reads the results in a folder. Throws InputError if the summary cannot be read.

@@ -48,14 +48,17 @@ void write_job_array(const StudyPlan& plan, const std::filesystem::path& script,
   for (const PlannedPoint& point : plan.points)
     if (point.to_run(retry)) elements += element(plan, point, count++);
   if (count == 0) throw InputError("--slurm: no point is left to run");
+  const auto at_once = static_cast<std::size_t>(plan.jobs);
+  std::vector<std::string> start = plan.launcher;
+  start.push_back(own_program().string());
   const std::string text = fmt::format(
       R"(#!/bin/bash
 # Job array of {title}: sbatch {script}. State partition, cores, memory and time by options of sbatch.
 # Then `{command}` collects the results.
-#SBATCH --array=0-{last}
+#SBATCH --array=0-{last}{limit}
 #SBATCH --open-mode=append
 #SBATCH --requeue
-tread={program}
+tread=({start} )
 case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
 {elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
 esac
@@ -66,7 +69,7 @@ elif ls "$folder"/checkpoint/*.h5 >/dev/null 2>&1 || [[ -e $folder/summary.json 
   words=(resume "$folder" "${{place[@]}}")
 fi
 rm -f "$folder/failed.json"
-"$tread" "${{words[@]}}" &
+"${{tread[@]}}" "${{words[@]}}" &
 run=$!
 trap 'kill -TERM $run' TERM
 while :; do
@@ -90,7 +93,8 @@ exit $code
 )",
       fmt::arg("title", plan.study.name), fmt::arg("script", script.string()),
       fmt::arg("command", without_slurm(command, script.string())), fmt::arg("last", count - 1),
-      fmt::arg("program", shell_word(own_program().string())), fmt::arg("elements", elements));
+      fmt::arg("limit", at_once < count ? fmt::format("%{}", at_once) : ""),
+      fmt::arg("start", shell_words(start)), fmt::arg("elements", elements));
   write_named_text(script, text);
 }
 

@@ -55,8 +55,9 @@ struct StudyPlan {
   int jobs = 1;        ///< number of runs at once
   int threads = 0;     ///< threads of one run; 0: its share of the cores that are idle when it begins
   std::string device;  ///< of all runs; empty: the processor
-  int cards = 0;       ///< that the runs share, one run at a time each; 0: none, or those of `launcher`
-  std::vector<std::string> launcher;  ///< program and arguments that start the runs; empty: this machine does
+  int cards = 0;       ///< that the runs share, one run at a time each; 0: none, or those of `elsewhere`
+  std::vector<std::string> launcher;  ///< program and arguments before the command of a run; may be empty
+  std::string elsewhere;  ///< starts the runs on other machines, "srun -N1" or "Slurm"; empty: they run here
 
   /// Exit code of the first failed point's process; ExitCode::resources if a signal ended it.
   ExitCode failure_code() const;

@@ -42,11 +42,11 @@ bool program_exists(const std::string& name) {
   return false;
 }
 
-/// The words of --launcher, the first of which must be a program.
-std::vector<std::string> launcher_words(const std::string& text) {
-  std::istringstream stream(text);
+/// The words of --launcher. The first one must be a program here, unless a job array is to call it.
+std::vector<std::string> launcher_words(const StudyOptions& options) {
+  std::istringstream stream(options.launcher);
   const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
-  if (words.empty()) return words;
+  if (words.empty() || !options.slurm.empty()) return words;
   if (!program_exists(words.front()))
     throw InputError(fmt::format(
         "--launcher: there is no program '{}' in PATH; install it, or state its path", words.front()));
@@ -66,17 +66,16 @@ int cards_of(const std::string& device) {
 void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
-  plan.launcher = launcher_words(options.launcher);
-  if (!plan.launcher.empty()) {
-    plan.device = options.device;
-    const int jobs = stated(options.jobs, plan.study.jobs);
+  plan.device = options.device;
+  plan.launcher = launcher_words(options);
+  plan.elsewhere = options.slurm.empty() ? fmt::format("{}", fmt::join(plan.launcher, " ")) : "Slurm";
+  int jobs = stated(options.jobs, plan.study.jobs);
+  if (!plan.elsewhere.empty()) {
     plan.jobs = jobs > 0 ? jobs : static_cast<int>(plan.points.size());
     return;
   }
   const int each = std::max(1, plan.threads);
-  plan.device = options.device;
   plan.cards = cards_of(plan.device);
-  int jobs = stated(options.jobs, plan.study.jobs);
   if (plan.cards > 0) {
     if (options.jobs > plan.cards)
       throw InputError(fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
@@ -94,17 +93,17 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
 
 /// Lowers the number of runs at once if memory is short and their number was not stated.
 void mind_memory(StudyPlan& plan, const StudyOptions& options) {
-  if (stated(options.jobs, plan.study.jobs) > 0 || !plan.launcher.empty()) return;
+  if (stated(options.jobs, plan.study.jobs) > 0 || !plan.elsewhere.empty()) return;
   while (plan.jobs > 1 && total_cost(plan).memory > machine_memory()) --plan.jobs;
 }
 
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
   const std::string saved =
       cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
-  if (!plan.launcher.empty())
+  if (!plan.elsewhere.empty())
     return fmt::format(
         "{} runs at once by {}: {} one after the other{} at this machine's speed, {} on the disk", plan.jobs,
-        fmt::join(plan.launcher, " "), duration_text(cost.seconds), saved, bytes_text(cost.disk));
+        plan.elsewhere, duration_text(cost.seconds), saved, bytes_text(cost.disk));
   const std::string threads =
       plan.threads > 0 ? fmt::format("{} thread{} each", plan.threads, plan.threads == 1 ? "" : "s")
                        : fmt::format("all {} cores", machine_cores());

@@ -241,7 +241,7 @@ void look_into_folders(StudyPlan& plan) {
 }
 
 void project_cost(StudyPlan& plan, bool retry) {
-  use_threads({std::max(1, plan.threads), ""});
+  use_threads({std::clamp(plan.threads, 1, machine_cores()), ""});
   PointProblems problems(plan.study);
   struct Built {
     const PlannedPoint* point;
@@ -255,7 +255,7 @@ void project_cost(StudyPlan& plan, bool retry) {
     if (is_new) {
       Model model = scene_model(keeping_scene(plan, point), point.resolved);
       if (model.contact) built.reach = model.contact->reach();
-      point.cost = estimate(model);
+      point.cost = estimate(model, file_bytes(point.resolved.source));
     } else if (const PlannedPoint& same = *built.point; same.cost) {
       const bool rolls = duration_of(same) > 0;
       point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
