@@ -55,9 +55,9 @@ build() {
     (cd "$root" && logged build/configure.log cmake --preset "$preset") || die "The build cannot be configured."
     echo "$preset" >"$folder/preset"
   fi
-  if compgen -G '/dev/nvidia[0-9]*' >/dev/null && ! command -v nvcc >/dev/null && [[ ! -d /usr/local/cuda ]]; then
-    echo "This machine has a GPU and no nvcc: with CUDA 12 or later, cmake --preset release -D TREAD_CUDA=ON uses it." >&2
-  fi
+  local unused_card
+  unused_card=$(cat "$folder/unused_card.txt" 2>/dev/null) || true
+  [[ -z $unused_card ]] || echo "$unused_card" >&2
   [[ -x $folder/tread ]] || echo "Building; this takes minutes, once ..." >&2
   logged "$root/build/build.log" cmake --build "$folder" --target "$target" || die "The build failed."
 }

@@ -11,11 +11,11 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/rank_parts.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/node_fields.hpp"
 #include "drivers/engine/rank_fields.hpp"
 #include "drivers/engine/rank_shares.hpp"
 #include "drivers/results/memory_need.hpp"
-#include "drivers/results/scene_model.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 

@@ -5,25 +5,34 @@
 #include "core/error.hpp"
 #include "drivers/engine/start.hpp"
 #include "drivers/engine/static_system.hpp"
-#include "drivers/results/memory_need.hpp"
 #include "drivers/results/run_results.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "drivers/run/preload_cache.hpp"
+#include "drivers/run/run_model.hpp"
 
 namespace tread {
 
-RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progress) {
-  const Scene& scene = resolved.scene;
-  if (!scene.motion)
+namespace {
+
+Model moving_model(const ResolvedScene& resolved) {
+  if (!resolved.scene.motion)
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
-  model_ = std::make_unique<Model>(scene, std::nullopt, require_memory);
+  return scene_model(resolved.scene, resolved);
+}
+
+}  // namespace
+
+RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progress)
+    : model_(moving_model(resolved)) {
+  require_device_memory(model_);
   const auto say = [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); };
-  preload_ = preload_and_corrugate(resolved, *model_, say);
-  dt_ = scene.motion->step_safety * step_limit(*model_).stable_step;
+  preload_ = preload_and_corrugate(resolved, model_, say);
+  dt_ = model_.scene.motion->step_safety * step_limit(model_).stable_step;
 }
 
 Simulation RollingScene::start() const {
-  Simulation simulation(*model_, preload_, dt_);
-  simulation.set_sampling_interval(sampling_interval(model_->scene, dt_));
+  Simulation simulation(model_, preload_, dt_);
+  simulation.set_sampling_interval(sampling_interval(model_.scene, dt_));
   return simulation;
 }
 

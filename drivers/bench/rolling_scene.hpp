@@ -1,8 +1,6 @@
 #pragma once
 // A scene brought to the first step of its motion.
 
-#include <memory>
-
 #include "drivers/engine/model.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
@@ -13,16 +11,17 @@ namespace tread {
 
 class RollingScene {
  public:
-  /// Makes mesh, preload (or finds it in the cache) and step. Throws InputError for a scene without a motion.
+  /// Makes mesh, preload (or finds it in the cache) and step. Throws InputError for a scene without a motion,
+  /// and as scene_model() and require_device_memory() do.
   RollingScene(const ResolvedScene& resolved, const Progress& progress);
 
-  const Model& model() const { return *model_; }
+  const Model& model() const { return model_; }
   double dt() const { return dt_; }
   /// Simulation at the start. Only one may exist at a time, as all share the model's contact.
   Simulation start() const;
 
  private:
-  std::unique_ptr<Model> model_;
+  Model model_;
   Preload preload_;
   double dt_ = 0;  ///< [s]
 };

@@ -7,9 +7,8 @@
 #include <string>
 
 #include "core/mesh/grading.hpp"
-#include "core/parallel/ranks.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/results/memory_need.hpp"
-#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -43,18 +42,8 @@ double fitting_all(Scene scene, double fits) {
 
 }  // namespace
 
-void require_no_bodies(const Scene& scene, const char* of_others) {
-  if (scene.bodies.empty()) return;
-  const std::string& name = scene.bodies.begin()->first;
-  throw InputError(
-      fmt::format("body.{}: the steps of a body from a file are those of one process; leave out {}, or state "
-                  "body.{}.present = false",
-                  name, of_others, name));
-}
-
 Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional<double> corrugation_centre) {
-  if (chosen_device()) require_no_bodies(scene, "--device");
-  if (chosen_ranks()) require_no_bodies(scene, "mpirun");
+  require_steps_of_bodies(scene);
   try {
     return Model(scene, corrugation_centre, require_memory);
   } catch (const MeshSizeError& error) {

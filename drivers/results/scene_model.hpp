@@ -8,10 +8,6 @@
 
 namespace tread {
 
-/// Throws InputError if the scene has a body from a file, whose steps are those of one process; `of_others`:
-/// what asks for others, such as "mpirun".
-void require_no_bodies(const Scene& scene, const char* of_others);
-
 /// Model of `scene`, which may differ from `origin.scene`. Throws as Model does, ResourceError where the
 /// machine lacks memory for the mesh, and InputError that names the line of `origin` which sets the element
 /// size if no mesh has such elements.

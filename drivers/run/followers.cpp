@@ -149,6 +149,15 @@ class FollowedRun {
   std::exception_ptr error_;  ///< of the last step
 };
 
+/// ResourceError where the chosen device is not rank 0's: ranks would not have the same bits.
+void require_device(const std::string& of_rank_0, int rank) {
+  if (device_name() == of_rank_0) return;
+  throw ResourceError(
+      fmt::format("rank {} has {}, rank 0 has {}; state --device gpu:N, or let CUDA_VISIBLE_DEVICES show "
+                  "equal cards",
+                  rank, device_name(), of_rank_0));
+}
+
 /// Until a word that is not about the run.
 Word follow_run(Ranks& ranks) {
   FollowedRun run(receive(ranks), ranks);
@@ -236,8 +245,11 @@ void follow(Ranks& ranks) {
   for (Word word = next_word(ranks); word != Word::dismiss;) {
     if (word == Word::device) {
       std::string name;
+      std::string of_rank_0;
       broadcast_values(ranks, name);
+      broadcast_values(ranks, of_rank_0);
       choose_device(name, ranks.place_on_host());
+      require_device(of_rank_0, ranks.rank());
     }
     word = word == Word::begin ? follow_run(ranks) : next_word(ranks);
   }
@@ -246,8 +258,10 @@ void follow(Ranks& ranks) {
 void choose_devices(Ranks& ranks, const std::string& name) {
   choose_device(name, ranks.place_on_host());
   std::string of_others = !chosen_device() ? "cpu" : name == "auto" ? "gpu" : name;
+  std::string of_rank_0 = device_name();
   say(ranks, Word::device);
   broadcast_values(ranks, of_others);
+  broadcast_values(ranks, of_rank_0);
 }
 
 void dismiss(Ranks& ranks) {

@@ -53,7 +53,8 @@ class Followers {
 /// Simulation do, except those that all ranks meet in the same step: rank 0 reports them.
 void follow(Ranks& ranks);
 
-/// Gives each rank a device of this name, as choose_device() does; all have one where rank 0 finds one.
+/// Gives each rank a device of this name, as choose_device() does; all have one where rank 0 finds one. A
+/// rank whose card is another than rank 0's ends all, by a ResourceError of its follow().
 void choose_devices(Ranks& ranks, const std::string& name);
 
 /// Ends follow() on the other ranks.

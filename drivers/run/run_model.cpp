@@ -3,11 +3,15 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/error.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/results/scene_model.hpp"
+#include "io/report/plain_text.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -53,6 +57,19 @@ Model run_model(const ResolvedScene& made, const SealedContent* state, RunResult
   if (state) unpack_results(*state, results);
   return scene_model(made.scene, made,
                      state ? std::optional(deepest_line(made.scene, results.preload)) : std::nullopt);
+}
+
+void require_device_memory(const Model& model) {
+  const std::shared_ptr<Device> device = chosen_device();
+  if (!device || !model.scene.motion) return;
+  const std::int64_t needed = device_need(model).bytes;
+  const std::int64_t free = device->free_bytes();
+  if (needed <= free) return;
+  const char* less = model.scene.precision == "double" ? "use scene.precision = \"mixed\", " : "";
+  throw ResourceError(fmt::format(
+      "the scene needs about {} on the device, and {} has {} free; raise scene.element_size, {}or "
+      "use --device cpu",
+      bytes_text(needed), device->name(), bytes_text(free), less));
 }
 
 }  // namespace tread

@@ -22,4 +22,7 @@ void require_later_end(const Scene& made, const Scene& later, const SealedConten
 /// corrugation. [nullptr: no state yet]
 Model run_model(const ResolvedScene& made, const SealedContent* state, RunResults& results);
 
+/// ResourceError where the chosen device lacks memory for the steps of the model, by its estimate.
+void require_device_memory(const Model& model);
+
 }  // namespace tread

@@ -159,6 +159,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   results.origin = session.order.origin;
   Model model = run_model(made, checkpoint, results);
   adopt_later_values(model, session.resolved.scene);
+  require_device_memory(model);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} parts, {}", model.elements(), model.nodes(),

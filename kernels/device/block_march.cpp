@@ -9,6 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "kernels/device/march_node.hpp"
+#include "kernels/material/laws.hpp"
 
 namespace tread {
 
@@ -45,28 +47,40 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
     throw ResourceError("block \"" + swept_->name + "\": the fields up to it have " + std::to_string(values) +
                         " values, and a device takes " + std::to_string(kMostValues) +
                         "; choose larger elements, or --device cpu");
-  const MarchCut sizes = device.cut();
-  const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes, moved_elements(elements));
+  const SectionCut cut = fitting_cut(device, elements);
   block_.closed = swept_->closed;
-  block_.colours = cut.colours;
   block_.quads = static_cast<int>(swept_->section.quads.size());
   block_.section_nodes = swept_->section.nodes();
   block_.origin_node = elements.origin_node();
   block_.parts = static_cast<int>(cut.parts.size());
-  block_.run_tiles = std::max(1, sizes.run_tiles);
   block_.part = keep(device, cut.parts);
   block_.part_nodes = keep(device, cut.nodes);
   block_.part_quads = keep(device, cut.quads);
   block_.first_of_colour = keep(device, cut.first_of_colour);
-  for (const MarchPart& part : cut.parts) {
-    block_.most_nodes = std::max(block_.most_nodes, part.nodes);
-    block_.most_quads = std::max(block_.most_quads, part.quads);
-    block_.most_own_nodes = std::max(block_.most_own_nodes, part.own_nodes);
-  }
   block_.damping = static_cast<Real>(damping);
   build_tiles(device);
   build_coefficients(device, elements);
   find_awaiting(device, cut, marks);
+}
+
+/// Cuts the section for the device: into parts of fewer quads where a team lacks memory for the largest one.
+template <class Real>
+SectionCut BlockMarch<Real>::fitting_cut(const Device& device, const BlockElements<Real>& elements) {
+  MarchCut sizes = device.cut();
+  block_.run_tiles = std::max(1, sizes.run_tiles);
+  const std::vector<int> moved = moved_elements(elements);
+  for (;;) {
+    SectionCut cut = cut_section(swept_->section, elements.plan(), sizes, moved);
+    const auto most = [&](int MarchPart::*number) { return std::ranges::max(cut.parts, {}, number).*number; };
+    block_.colours = cut.colours;
+    block_.most_nodes = most(&MarchPart::nodes);
+    block_.most_quads = most(&MarchPart::quads);
+    block_.most_own_nodes = most(&MarchPart::own_nodes);
+    const std::size_t needed =
+        room_bytes(block_, is_linear(elements.law()), swept_->sweep == Sweep::revolved);
+    if (needed <= device.team_bytes() || sizes.part_quads <= 1) return cut;
+    sizes.part_quads = std::max(1, static_cast<int>(index(sizes.part_quads) * device.team_bytes() / needed));
+  }
 }
 
 template <class Real>

@@ -41,6 +41,7 @@ class BlockMarch {
   /// Copies values to the device.
   template <class T, class Allocator>
   const T* keep(Device& device, const std::vector<T, Allocator>& values);
+  SectionCut fitting_cut(const Device& device, const BlockElements<Real>& elements);
   void build_tiles(Device& device);
   void build_coefficients(Device& device, const BlockElements<Real>& elements);
   void find_awaiting(Device& device, const SectionCut& cut, std::span<const int> marks);

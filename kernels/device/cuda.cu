@@ -21,14 +21,43 @@ namespace {
 constexpr int kThreads = MarchCut{}.threads;
 constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
 
-/// ResourceError where a call failed.
-void check(cudaError_t status, const char* what) {
-  if (status != cudaSuccess)
-    throw ResourceError(std::string("the GPU failed (") + what + "): " + cudaGetErrorString(status) +
-                        "; `tread resume` goes on from the last checkpoint, with --device cpu anywhere");
+/// Architectures that the program is compiled for, ascending: 900 is 9.0. cuda.cmake keeps PTX of each, from
+/// which newer cards get their code.
+constexpr int kArchitectures[] = {__CUDA_ARCH_LIST__};
+
+/// "9.0" of 900.
+std::string version(int architecture) {
+  return std::to_string(architecture / 100) + "." + std::to_string(architecture / 10 % 10);
 }
 
-std::string mebibytes(std::size_t bytes) {
+/// Zeros where there is no such card.
+cudaDeviceProp properties_of(int number) {
+  cudaDeviceProp properties{};
+  if (cudaGetDeviceProperties(&properties, number) != cudaSuccess) cudaGetLastError();
+  return properties;
+}
+
+int architecture_of(const cudaDeviceProp& card) {
+  return 100 * card.major + 10 * card.minor;
+}
+bool has_code(const cudaDeviceProp& card) {
+  return architecture_of(card) >= kArchitectures[0];
+}
+
+/// Why the program has no code for a card.
+std::string why_no_code(const cudaDeviceProp& card) {
+  return std::string(card.name) + " has the architecture " + version(architecture_of(card)) +
+         ", and this tread is compiled for " + version(kArchitectures[0]) +
+         " and newer; TREAD_CUDA_ARCHITECTURES=80 compiles it for 8.0, the oldest that it can use";
+}
+
+/// Cards that CUDA shows, with code or without.
+int card_count() {
+  int count = 0;
+  return cudaGetDeviceCount(&count) == cudaSuccess ? count : 0;
+}
+
+std::string mebibytes(std::int64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB";
 }
 
@@ -62,12 +91,9 @@ __global__ void __launch_bounds__(kPatchThreads, Body::kNeedsMemory ? 1 : 2)
 
 class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
-  explicit CudaDevice(int number) : number_(opened(number)), spared_(number, kPatchTeams) {
-    cudaDeviceProp properties{};
-    check(cudaGetDeviceProperties(&properties, number), "its properties");
-    name_ = properties.name;
-    shared_ = properties.sharedMemPerBlockOptin;
-    patch_teams_ = properties.major >= 9 ? kPatchTeams : 1;
+  explicit CudaDevice(int number)
+      : number_(number), card_(properties_of(number)), spared_(opened(), kPatchTeams) {
+    patch_teams_ = card_.major >= 9 ? kPatchTeams : 1;
     int last = 0;
     int first = 0;
     check(cudaDeviceGetStreamPriorityRange(&last, &first), "its priorities");
@@ -88,18 +114,22 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     }
   }
 
-  std::string name() const override { return name_; }
+  std::string name() const override { return card_.name; }
+  std::size_t team_bytes() const override { return card_.sharedMemPerBlockOptin; }
+  std::int64_t free_bytes() const override {
+    std::size_t free = 0;
+    std::size_t total = 0;
+    check(cudaMemGetInfo(&free, &total), "its memory");
+    return static_cast<std::int64_t>(free);
+  }
 
   void* allocate(std::size_t bytes) override {
     void* memory = nullptr;
     const cudaError_t status = cudaMalloc(&memory, bytes);
-    if (status == cudaErrorMemoryAllocation) {
-      std::size_t free = 0;
-      std::size_t total = 0;
-      cudaMemGetInfo(&free, &total);
-      throw ResourceError("the GPU " + name_ + " has " + mebibytes(free) + " of " + mebibytes(total) +
-                          " free, too little for this scene; larger elements, or --device cpu, need none");
-    }
+    if (status == cudaErrorMemoryAllocation)
+      throw ResourceError("the GPU " + label() + " has " + mebibytes(free_bytes()) + " of " +
+                          mebibytes(static_cast<std::int64_t>(card_.totalGlobalMem)) +
+                          " free, too little for this scene; larger elements, or --device cpu, need less");
     check(status, "memory");
     check(cudaMemsetAsync(memory, 0, bytes, stream()), "memory");
     return memory;
@@ -122,10 +152,22 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
  private:
   friend KernelDevice<CudaDevice>;
 
-  static int opened(int number) {
-    check(cudaSetDevice(number), "opening it");
+  /// "NVIDIA H200 (gpu:0)".
+  std::string label() const { return name() + " (gpu:" + std::to_string(number_) + ")"; }
+
+  /// ResourceError where a call failed.
+  void check(cudaError_t status, const char* what) const {
+    if (status != cudaSuccess)
+      throw ResourceError("the GPU " + label() + " failed (" + what + "): " + cudaGetErrorString(status) +
+                          "; --device cpu needs none");
+  }
+
+  int opened() const {
+    check(cudaSetDevice(number_), "opening it");
     check(cudaFree(nullptr), "opening it");
-    return number;
+    cudaFuncAttributes attributes{};
+    check(cudaFuncGetAttributes(&attributes, each_kernel<Triad>), "its code");
+    return number_;
   }
 
   struct Queue {
@@ -185,7 +227,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
   template <class Body>
   void patch_any(const Body& body) {
     const auto kernel = patch_kernel<Body>;
-    const std::size_t shared = Body::kNeedsMemory ? shared_ : CudaTeams::kOwnBytes;
+    const std::size_t shared = Body::kNeedsMemory ? team_bytes() : CudaTeams::kOwnBytes;
     allow(kernel, shared);
     cudaLaunchAttribute cluster{};
     cluster.id = cudaLaunchAttributeClusterDimension;
@@ -214,20 +256,19 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     template <class March>
     void operator()() const {
       const std::size_t bytes = March::shared_bytes(block);
-      if (bytes > device.shared_)
-        throw ResourceError("the GPU " + device.name_ + " shares " + std::to_string(device.shared_) +
+      if (bytes > device.team_bytes())
+        throw ResourceError("the GPU " + device.label() + " shares " + std::to_string(device.team_bytes()) +
                             " B among the threads of a team, and " + std::to_string(bytes) +
-                            " B are needed; --device cpu needs none");
+                            " B are needed; scene.precision = \"mixed\" needs less, --device cpu none");
       const auto kernel = march_kernel<March, Real, U>;
       device.allow(kernel, bytes);
       kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes, device.stream()>>>(block, fields);
-      check(cudaGetLastError(), "march");
+      device.check(cudaGetLastError(), "march");
     }
   };
 
   int number_;
-  std::string name_;
-  std::size_t shared_ = 0;
+  cudaDeviceProp card_;
   int patch_teams_ = 1;
   SparedProcessors spared_;
   std::array<Queue, kQueues> queues_;
@@ -235,31 +276,36 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
 }  // namespace
 
+std::vector<int> gpu_numbers() {
+  std::vector<int> numbers;
+  for (int number = 0; number < card_count(); ++number)
+    if (has_code(properties_of(number))) numbers.push_back(number);
+  return numbers;
+}
+
 std::vector<std::string> gpus() {
-  int count = 0;
   std::vector<std::string> names;
-  if (cudaGetDeviceCount(&count) != cudaSuccess) return names;
-  for (int number = 0; number < count; ++number) {
-    cudaDeviceProp properties{};
-    if (cudaGetDeviceProperties(&properties, number) == cudaSuccess) names.emplace_back(properties.name);
-  }
+  for (const int number : gpu_numbers()) names.emplace_back(properties_of(number).name);
   return names;
 }
 
 std::string why_no_gpu() {
   int count = 0;
   const cudaError_t status = cudaGetDeviceCount(&count);
+  if (count > 0) return why_no_code(properties_of(0));
   std::string why = "there is no card that CUDA can use";
   if (status != cudaSuccess) why += std::string(" (") + cudaGetErrorString(status) + ")";
   return why;
 }
 
 std::unique_ptr<Device> open_gpu(int number) {
-  const int count = static_cast<int>(gpus().size());
-  const std::string name = "--device gpu:" + std::to_string(number);
-  if (count == 0) throw ResourceError(name + ": " + why_no_gpu() + "; --device cpu runs everywhere");
+  const std::string name = "--device gpu:" + std::to_string(number) + ": ";
+  const int count = card_count();
+  if (count == 0) throw ResourceError(name + why_no_gpu() + "; --device cpu runs everywhere");
   if (number >= count)
-    throw ResourceError(name + ": the last card of this machine is gpu:" + std::to_string(count - 1));
+    throw ResourceError(name + "the last card of this machine is gpu:" + std::to_string(count - 1));
+  if (const cudaDeviceProp card = properties_of(number); !has_code(card))
+    throw ResourceError(name + why_no_code(card) + "; --device cpu runs everywhere");
   return std::make_unique<CudaDevice>(number);
 }
 

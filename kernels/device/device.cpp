@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 namespace tread {
 
@@ -27,14 +27,20 @@ int card_of(std::string_view name) {
   return failure == std::errc() && stop == end ? number : -1;
 }
 
+/// A card for this place; 0 where there is none, which open_gpu() refuses.
+int card_at(int place) {
+  const std::vector<int> cards = gpu_numbers();
+  return cards.empty() ? 0 : cards[index(place) % cards.size()];
+}
+
 }  // namespace
 
 void choose_device(std::string_view name, int place) {
   const int card = card_of(name);
-  if (name.empty() || name == "cpu" || (name == "auto" && gpus().empty()))
+  if (name.empty() || name == "cpu" || (name == "auto" && gpu_numbers().empty()))
     choose_device(std::shared_ptr<Device>());
   else if (name == "gpu" || name == "auto" || card >= 0)
-    choose_device(open_gpu(card >= 0 ? card : place % std::max(1, static_cast<int>(gpus().size()))));
+    choose_device(open_gpu(card >= 0 ? card : card_at(place)));
   else if (name == "emulated")
     choose_device(emulated_device());
   else

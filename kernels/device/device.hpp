@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -47,6 +48,10 @@ class Device {
   /// "emulated", or the card's name.
   virtual std::string name() const = 0;
   virtual MarchCut cut() const { return {}; }
+  /// Memory that the threads of a march's team can share [B]: smaller parts need less. [BlockMarch]
+  virtual std::size_t team_bytes() const { return std::numeric_limits<std::size_t>::max(); }
+  /// Memory that is left for allocate() [B].
+  virtual std::int64_t free_bytes() const { return std::numeric_limits<std::int64_t>::max(); }
   /// True where the host's copies of what moves on the device are filled with NaN, so that whoever reads them
   /// is found out. For tests.
   virtual bool spoils_copies() const { return false; }
@@ -197,21 +202,26 @@ class DeviceArray {
 
 /// Emulation of a device by the processor's threads.
 struct Emulation {
-  MarchCut cut;
+  MarchCut cut = {};
   /// Seed of the order of teams and of their threads; 0: ascending. With another all queues are late, but
   /// with an even one marches begin at once, before the tractions beside them.
   std::uint64_t order = 0;
   bool spoils_copies = false;      ///< Device::spoils_copies
   int teams = 4;                   ///< of a patch, kMostTeams at most
   std::size_t shared = 200 << 10;  ///< memory of each of them, a multiple of 64 [B]
+  std::size_t team_bytes = std::numeric_limits<std::size_t>::max();    ///< Device::team_bytes
+  std::int64_t free_bytes = std::numeric_limits<std::int64_t>::max();  ///< Device::free_bytes
 };
 std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
 
-/// Cards that this program can use, by number; empty where it is built without, or the machine has none.
+/// Numbers that CUDA gives the cards that this program has code for, ascending; empty where it is built
+/// without, or the machine has none.
+std::vector<int> gpu_numbers();
+/// Their names.
 std::vector<std::string> gpus();
 /// Why gpus() is empty.
 std::string why_no_gpu();
-/// ResourceError where there is no such card.
+/// ResourceError where there is no card of this number, or the program has no code for it.
 std::unique_ptr<Device> open_gpu(int number);
 
 /// Chooses the device of the steps to come: cpu or no name (none), gpu, gpu:N, emulated, or auto (a card

@@ -192,6 +192,8 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
 
   std::string name() const override { return "emulated"; }
   MarchCut cut() const override { return emulation_.cut; }
+  std::size_t team_bytes() const override { return emulation_.team_bytes; }
+  std::int64_t free_bytes() const override { return emulation_.free_bytes; }
   bool spoils_copies() const override { return emulation_.spoils_copies; }
 
   void* allocate(std::size_t bytes) override {

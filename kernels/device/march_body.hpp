@@ -34,7 +34,9 @@ class March {
         room_(team, block, part_) {}
 
   /// Bytes that the threads of a team share at most.
-  static std::size_t shared_bytes(const MarchBlock<Real>& block) { return Room::bytes(block); }
+  static std::size_t shared_bytes(const MarchBlock<Real>& block) {
+    return room_bytes(block, kLinear, sweep == Sweep::revolved);
+  }
 
   TREAD_INLINE void run() {
     if (block_.leaves_out(run_)) return;

@@ -82,16 +82,17 @@ struct MarchRoom {
     section_node = team.template share<int>(part.nodes);
     first_of_colour = team.template share<int>(block.colours + 1);
   }
-
-  /// For the largest part of a block.
-  static std::size_t bytes(const MarchBlock<Real>& block) {
-    const int of_nodes = (linear ? 1 : 2) * block.most_nodes + block.most_own_nodes + 1;
-    const int reals = kNodeStride * of_nodes + (revolved ? 2 * kLanes * block.run_tiles : 0);
-    return sizeof(Real) * static_cast<std::size_t>(reals) +
-           sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
-           sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
-  }
 };
+
+/// Bytes of a MarchRoom for the largest part of a block.
+template <class Real>
+std::size_t room_bytes(const MarchBlock<Real>& block, bool linear, bool revolved) {
+  const int of_nodes = (linear ? 1 : 2) * block.most_nodes + block.most_own_nodes + 1;
+  const int reals = kNodeStride * of_nodes + (revolved ? 2 * kLanes * block.run_tiles : 0);
+  return sizeof(Real) * static_cast<std::size_t>(reals) +
+         sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
+         sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
+}
 
 /// Values of a node at both ends of an element, as the fields hold them.
 template <class Real, class U>

@@ -7,6 +7,10 @@
 
 namespace tread {
 
+std::vector<int> gpu_numbers() {
+  return {};
+}
+
 std::vector<std::string> gpus() {
   return {};
 }

@@ -13,8 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
@@ -22,6 +24,7 @@
 #include "drivers/studies/export/keyword_export.hpp"
 #include "io/mesh/imported_mesh.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "kernels/device/device.hpp"
 #include "kernels/hexahedra/body_force.hpp"
 #include "tests/swept_samples.hpp"
 
@@ -108,6 +111,10 @@ TEST(Bodies, HaveTheMassesOfTheSweptDisc) {
   EXPECT_EQ(model.ties->secondary_count(), swept.ties->secondary_count());
   EXPECT_EQ(model.ties->primary_count(), swept.ties->primary_count());
   EXPECT_NEAR(stable_step_of(model) / stable_step_of(swept), 1, 1e-4);
+
+  choose_device("emulated");  // takes steps of blocks alone
+  EXPECT_THROW(make_node_fields(model), InputError);
+  choose_device("cpu");
 }
 
 /// The field of the swept model in the fields of the model with the body.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -13,6 +14,8 @@
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/device_movers.hpp"
+#include "drivers/run/run_model.hpp"
+#include "io/report/plain_text.hpp"
 #include "tests/device_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -206,6 +209,25 @@ TEST(Device, ARunGoesOnElsewhere) {
   const Apart between = apart(of_whole.values(), *whole, *back);
   EXPECT_LT(between.displacement, 1e-9);
   EXPECT_LT(between.velocity, 1e-9);
+}
+
+TEST(Device, ASceneThatNeedsMoreMemoryIsRefused) {
+  for (const std::string precision : {"double", "mixed"}) {
+    const Model model(tyre({})(precision));
+    const std::int64_t needed = device_need(model).bytes;
+    choose_device(emulated_device({.free_bytes = needed}));
+    EXPECT_NO_THROW(require_device_memory(model));
+    choose_device(emulated_device({.free_bytes = needed - 1}));
+    try {
+      require_device_memory(model);
+      ADD_FAILURE() << "accepted";
+    } catch (const ResourceError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("emulated has " + bytes_text(needed - 1) + " free"), std::string::npos) << text;
+      EXPECT_EQ(text.find("scene.precision") != std::string::npos, precision == "double") << text;
+    }
+  }
+  choose_device("cpu");
 }
 
 TEST(Device, NamesThatAreNoDeviceAreRefused) {

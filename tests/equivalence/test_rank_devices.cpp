@@ -4,11 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
+#include "drivers/run/followers.hpp"
 #include "tests/device_cases.hpp"
 #include "tests/thread_ranks.hpp"
 
@@ -19,6 +29,37 @@ using samples::corrugated;
 using samples::file;
 using samples::kTraction;
 using samples::tyre;
+
+/// What rank 0 tells all, by call.
+using Told = std::deque<std::vector<std::byte>>;
+
+/// One of two ranks: rank 0 notes what it tells, the other one hears it.
+class ToldRank final : public Ranks {
+ public:
+  ToldRank(int rank, Told& told) : rank_(rank), told_(&told) {}
+  int rank() const override { return rank_; }
+  int count() const override { return 2; }
+  void broadcast(std::span<std::byte> bytes) override {
+    if (rank_ == 0) {
+      told_->emplace_back(bytes.begin(), bytes.end());
+      return;
+    }
+    if (told_->empty() || told_->front().size() != bytes.size())
+      throw std::logic_error("rank 0 told something else");
+    std::copy(told_->front().begin(), told_->front().end(), bytes.begin());
+    told_->pop_front();
+  }
+  void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
+  void post(std::span<const RankSegment> /*sent*/) override {}
+  void receive(std::span<const RankSegment> /*received*/) override {}
+  void end_all(int code) override { std::exit(code); }
+
+ private:
+  void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
+
+  int rank_;
+  Told* told_;
+};
 
 /// `order`: of teams, threads and queues.
 std::shared_ptr<Device> small_parts(std::uint64_t order) {
@@ -53,6 +94,30 @@ void expect_same_steps(const std::function<Scene(const std::string&)>& scene,
     samples::expect_same_contact(*start, two.front());
     samples::expect_same_energies(start->sample(), two.front().sample());
   }
+}
+
+/// The name of rank 0's device is the last word but one; "NVIDIA X" has the length of "emulated".
+TEST(RankDevices, AnotherDeviceThanThatOfRank0IsRefused) {
+  Told told;
+  ToldRank rank_0(0, told);
+  choose_devices(rank_0, "emulated");
+  dismiss(rank_0);
+  Told of_equals = told;
+  ToldRank equal(1, of_equals);
+  EXPECT_NO_THROW(follow(equal));
+
+  const auto card = std::as_bytes(std::span<const char>("NVIDIA X", 8));
+  told[told.size() - 2].assign(card.begin(), card.end());
+  ToldRank other(1, told);
+  try {
+    follow(other);
+    ADD_FAILURE() << "accepted";
+  } catch (const ResourceError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rank 1 has emulated, rank 0 has NVIDIA X; state --device gpu:N, or let "
+                 "CUDA_VISIBLE_DEVICES show equal cards");
+  }
+  choose_device("cpu");
 }
 
 TEST(RankDevices, TractionOverCorrugation) {

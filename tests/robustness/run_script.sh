@@ -66,6 +66,9 @@ try 660 --set fails=1
 [[ $status == 3 && $(runs) == 1 ]] || fail "a preview that fails ends the script with its code"
 try 60 --set fails=1
 [[ $status == 3 ]] || fail "the exit code of the run"
+echo "The card of this machine is not used." >"$work/build/release/unused_card.txt"
+try 60
+grep -q "^The card of this machine is not used" "$work/said" || fail "the reason why a card is not used"
 if "$work/run" "$work/none.toml" 2>"$work/said"; then fail "a scene that is absent"; fi
 grep -q "There is no scene file" "$work/said" || fail "the absent scene is named"
 echo "run_script.sh: all is well"

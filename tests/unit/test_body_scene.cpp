@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/mesh/hex_mesh.hpp"
+#include "drivers/bench/rolling_scene.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/multibody_model.hpp"
@@ -238,11 +239,13 @@ TEST_F(BodyScene, IsRefusedWhereItCannotBeUsed) {
   };
   choose_device("emulated");
   const std::string on_device = message([&] { scene_model(scene.scene, scene); });
+  const std::string timed = message([&] { const RollingScene rolling(scene, Progress(true)); });
   choose_device("cpu");
   EXPECT_EQ(
       on_device,
       "body.web: the steps of a body from a file are those of one process; leave out --device, or state "
       "body.web.present = false");
+  EXPECT_EQ(timed, on_device);
   EXPECT_EQ(message([&] { multibody_model(scene.scene, BeamTheory::timoshenko); }),
             "tread multibody: body.web has no section, from which masses and modes are made; state "
             "body.web.present = false");

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "core/error.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/device/block_march.hpp"
+#include "kernels/device/march_node.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
@@ -45,6 +47,28 @@ TEST(March, ATranslationMakesNoForceInMixedPrecision) {
     AlignedVector<float> force(3 * nodes);
     v.download(force.data());
     for (const float component : force) EXPECT_LT(std::abs(component), 1e-6) << block.name;
+  }
+}
+
+/// The cut leaves the bits alone. [tests/equivalence/test_device.cpp]
+TEST(March, PartsFitTheMemoryOfATeam) {
+  Mesh mesh;
+  mesh.add(make_swept_block("bar", Sweep::extruded, samples::grid_section({.columns = 23, .rows = 17}),
+                            samples::materials(), 0, {{8, 0.01, 0}}));
+  const InternalForce internal(mesh);
+  StepLoads loads;
+  loads.dt = 1;
+  const auto block_of = [&](const Emulation& emulation) {
+    const auto device = emulated_device(emulation);
+    return BlockMarch<double>(*device, internal.elements(0), 0, {}).at(loads);
+  };
+  const MarchBlock<double> unbounded = block_of({});
+  const std::size_t needed = room_bytes(unbounded, true, false);
+  EXPECT_EQ(block_of({.team_bytes = needed}).parts, unbounded.parts);
+  for (const std::size_t bytes : {needed - 1, needed / 2, needed / 4}) {
+    const MarchBlock<double> block = block_of({.team_bytes = bytes});
+    EXPECT_LE(room_bytes(block, true, false), bytes);
+    EXPECT_GT(block.parts, unbounded.parts);
   }
 }
 
