@@ -82,12 +82,15 @@ struct FootHold {
 /// [support.NAME], or a row of the file `fastenings.supports`: one fastening, and the sleeper under it, that
 /// differs from the others
 struct SupportSpec {
-  int fastening = 1;     ///< counted along x from 1
-  double shift = 0;      ///< of fastening and sleeper along x [m]
-  double stiffness = 1;  ///< of the fastening, vertical, over that of the others [-]
-  double damping = 1;    ///< likewise [-]
-  double bed = 1;        ///< stiffness and damping of the sleeper's bed over those of the others [-]
-  bool holds = true;     ///< the rail's foot along and across, as the others do
+  int fastening = 1;                   ///< counted along x from 1
+  double shift = 0;                    ///< of fastening and sleeper along x [m]
+  double stiffness = 1;                ///< of the fastening, vertical, over that of the others [-]
+  std::optional<double> damping = {};  ///< likewise; absent: 1, or 0 where the stiffness is 0 [-]
+  double bed = 1;     ///< stiffness and damping of the sleeper's bed over those of the others [-]
+  bool holds = true;  ///< the rail's foot along and across, as the others do
+
+  /// Vertical damping of the fastening over that of the others [-].
+  double damping_share() const { return damping.value_or(stiffness > 0 ? 1.0 : 0.0); }
 
   bool operator==(const SupportSpec&) const = default;
 };

@@ -15,8 +15,12 @@ namespace tread {
 
 namespace {
 
-/// Keys that bring a point of a fastening onto the line of this name of the block, for messages.
+/// Line of the points that [hammer] strikes.
+const std::string kCrown = "running surface";
+
+/// Keys that bring a point onto the line of this name of the block, for messages.
 std::string_view keys_across(const std::string& block, const std::string& path) {
+  if (path == kCrown) return "; [hammer] strikes y = 0: change rail.profile_shift";
   if (path == "foot") return "; state a smaller fastenings.pad_width";
   if (path != "top") return "";
   if (block == "slab")
@@ -40,8 +44,9 @@ Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes
   const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);
   const auto cell = StationFinder(block).find(x);
   if (cell.station < 0)
-    throw InputError(fmt::format("attachment at x = {:.4f} m lies beyond block '{}' ({:.4f} ... {:.4f} m)", x,
-                                 block.name, block.stations.front(), block.stations.back()));
+    throw InputError(fmt::format("attachment at x = {:.4f} m lies beyond block '{}' ({:.4f} ... {:.4f} m){}",
+                                 x, block.name, block.stations.front(), block.stations.back(),
+                                 path == kCrown ? "; change hammer.position" : ""));
   const double along = cell.distance / cell.pitch;
   Attachment at;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -66,7 +71,7 @@ Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
     if (nodes.empty()) nodes.push_back(edge.node[0]);
     nodes.push_back(edge.node[1]);
   }
-  return attach_to_line(block, nodes, "running surface", {x, y});
+  return attach_to_line(block, nodes, kCrown, {x, y});
 }
 
 std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double share,

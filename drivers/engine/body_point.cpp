@@ -129,9 +129,12 @@ BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double al
         what, 1e3 * place.depth, 1e3 * place.y));
   const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(found.block)];
   const StationFinder::Cell cell = StationFinder(block).find(along);
-  if (cell.station < 0)
-    throw InputError(fmt::format("{}: the place along the body, {:.6g}, lies beyond it, {:.6g} ... {:.6g}",
-                                 what, along, block.stations.front(), block.stations.back()));
+  if (cell.station < 0) {
+    const char* unit = block.sweep == Sweep::extruded ? "m" : "rad";
+    throw InputError(fmt::format(
+        "{}: the place along the body, {:.6g} {}, lies beyond it, {:.6g} ... {:.6g} {}; change {}.x", what,
+        along, unit, block.stations.front(), block.stations.back(), unit, what));
+  }
   const QuadPlace inside{std::clamp(found.place.xi, 0.0, 1.0), std::clamp(found.place.eta, 0.0, 1.0)};
   const double c = cell.distance / cell.pitch;
   const std::array<double, 4> corner = inside.weights();

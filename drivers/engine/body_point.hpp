@@ -33,7 +33,7 @@ struct SectionPlace {
 };
 
 /// The point of the blocks (indices; the first one carries the running surface) at `along`, x [m] or an angle
-/// [rad]. InputError, which begins with `what`, where no element holds it.
+/// [rad]. InputError, which begins with `what`, the scene's table of the point, where no element holds it.
 BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double along,
                      const SectionPlace& place, const std::string& what);
 

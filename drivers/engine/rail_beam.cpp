@@ -60,7 +60,7 @@ std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, con
 
 SupportSpring vertical_spring(const Scene& scene, int fastening) {
   const SupportSpec own = scene.support(fastening);
-  return {own.stiffness * scene.fastenings->stiffness, own.damping * scene.fastenings->damping};
+  return {own.stiffness * scene.fastenings->stiffness, own.damping_share() * scene.fastenings->damping};
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const
     const Attachment foot = rail.attach(x, y);
     const Attachment support = under ? attach(*under, "top", x, y) : Attachment{};
     elements.push_back(
-        {foot, support, own.stiffness * f.stiffness / groups, own.damping * f.damping / groups, 2});
+        {foot, support, own.stiffness * f.stiffness / groups, own.damping_share() * f.damping / groups, 2});
     const double share = own.holds ? 1.0 / groups : 0;
     for (const auto& [component, hold] : {std::pair(0, &f.along), std::pair(1, &f.across)})
       if (hold->kind == "elastic")

@@ -1,6 +1,5 @@
 #pragma once
-// Warnings of a mesh that resolves the contact patch or the corrugation too coarsely, and of a way that is
-// too short for them.
+// Warnings of a scene whose mesh, samples, way or depths do not show what it asks for.
 
 #include <optional>
 #include <string>

@@ -312,7 +312,7 @@ void add_support(Keys& keys, const std::string& name) {
   const std::string table = std::string(kSupportTables) + name;
   const Effects effects = {Effect::preload, Effect::cost};
   const auto place = [&](auto member) { return at(&Scene::supports, name, member); };
-  const auto share = [&](const char* key, double SupportSpec::*member, const char* description) {
+  const auto share = [&](const char* key, auto member, const char* description) {
     return number(table + key, effects, place(member), {0, 1000}, description);
   };
   keys.push_back(required(number(table + ".fastening", effects, place(&SupportSpec::fastening), {1, 10000},
@@ -322,7 +322,8 @@ void add_support(Keys& keys, const std::string& name) {
   keys.push_back(share(".stiffness", &SupportSpec::stiffness,
                        "Vertical stiffness of the fastening over `fastenings.stiffness`; 0: broken"));
   keys.push_back(share(".damping", &SupportSpec::damping,
-                       "Vertical damping of the fastening over `fastenings.damping`"));
+                       "Vertical damping of the fastening over `fastenings.damping`; absent: 1, or 0 where "
+                       "`stiffness` is 0"));
   keys.push_back(with_table("sleepers", share(".bed", &SupportSpec::bed,
                                               "Stiffness and damping of the sleeper's bed over those of the "
                                               "others; 0: the sleeper hangs on the rail")));

@@ -27,12 +27,21 @@ bool same(const Field& a, const Field& b) {
   return x && y && std::abs(*x - *y) <= kSame * std::abs(*y);
 }
 
+/// Returns true if the scene has a table of a kind, [surface.NAME] for "surface".
+bool has_named(const std::string& kind, const Scene& scene) {
+  const std::vector<Key> keys = scene_keys(scene);
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const Key& key) { return key.path.starts_with(kind + "."); });
+}
+
 /// Returns true if the scene has the value that the node states for the key, one of its values for a list, or
-/// for a table's name its presence.
+/// for the name or kind of a table its presence.
 bool holds(const std::string& path, const toml::node& node, Scene& scene) {
   if (const toml::array* values = node.as_array())
     return std::any_of(values->begin(), values->end(),
                        [&](const toml::node& value) { return holds(path, value, scene); });
+  if (std::find(kNamedTables.begin(), kNamedTables.end(), path + ".") != kNamedTables.end())
+    return has_named(path, scene) == to_boolean(node);
   const std::optional<SceneTable> table = table_of(path);
   if (table && table->name == path && table->removable()) return table->exists(scene) == to_boolean(node);
   const std::optional<Key> key = find_key(path);
@@ -92,15 +101,22 @@ Reference reference_of(const toml::table& table) {
   return reference;
 }
 
+/// Returns true if the scene of that name holds, one of them for a list.
+bool named_holds(const toml::node& name, const toml::table& file, Scene& scene) {
+  if (const toml::array* names = name.as_array())
+    return std::any_of(names->begin(), names->end(),
+                       [&](const toml::node& one) { return named_holds(one, file, scene); });
+  const toml::table* conditions = file["scenes"][name.value_or(std::string_view())].as_table();
+  if (!conditions) throw InputError(fmt::format("there is no table [scenes] of {}", describe_node(name)));
+  return all_hold(*conditions, scene);
+}
+
 /// Returns true if all scenes that the reference names hold.
 bool applies(const toml::table& reference, const toml::table& file, Scene& scene) {
   const toml::array* names = reference["scenes"].as_array();
   if (!names) throw InputError("a reference lacks `scenes`");
-  return std::all_of(names->begin(), names->end(), [&](const toml::node& name) {
-    const toml::table* conditions = file["scenes"][name.value_or(std::string_view())].as_table();
-    if (!conditions) throw InputError(fmt::format("there is no table [scenes] of {}", describe_node(name)));
-    return all_hold(*conditions, scene);
-  });
+  return std::all_of(names->begin(), names->end(),
+                     [&](const toml::node& name) { return named_holds(name, file, scene); });
 }
 
 References references_in(const toml::table& file, Scene scene) {

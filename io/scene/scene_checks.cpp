@@ -12,6 +12,7 @@
 #include "core/travel.hpp"
 #include "io/scene/body_checks.hpp"
 #include "io/scene/corrugation_checks.hpp"
+#include "io/scene/rail_reach.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
 #include "io/scene/surface_file.hpp"
@@ -205,8 +206,7 @@ class Checker {
             "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
     require(rail.support != "free" || !scene_.wheel, {"rail.support", "wheel"},
             "nothing carries a free rail under a wheel; state rail.support = \"rigid\" or \"fastenings\"");
-    require(rail.support != "free" || scene_.wheel || !scene_.motion || scene_.gravity == 0,
-            {"rail.support", "scene.gravity"},
+    require(rail.support != "free" || scene_.wheel || scene_.gravity == 0, {"rail.support", "scene.gravity"},
             "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
     require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
             fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
@@ -219,16 +219,18 @@ class Checker {
                         scene_.start_x(), left + kRailEndMargin));
     if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
-    const auto require_on_rail = [&](bool holds, double x, double end) {
-      require(holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
-              fmt::format(
-                  "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
-                  x, end, kRailEndMargin));
+    const auto require_on_rail = [&](bool holds, double x, double end, const std::string& way_out) {
+      require(
+          holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
+          fmt::format("the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's "
+                      "end; state a shorter motion.duration, or {}",
+                      x, end, kRailEndMargin, way_out));
     };
     const double last = right - kRailEndMargin;
     const double first = std::min(left + kRailEndMargin, scene_.start_x());
-    require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
-    require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
+    require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last,
+                    keys_to_reach(scene_, travel.last));
+    require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first, "a larger rail.origin");
   }
 
   void check_motion(const MotionSpec& motion) {
@@ -247,6 +249,8 @@ class Checker {
     require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
             "the state for forks is kept after the run's end");
     if (scene_.wheel && knows(scene_.wheel->material)) check_rim(motion, scene_.wheel_material());
+    require(motion.traction_mu.value_or(0) == 0 || scene_.contact, {"motion.traction.mu", "contact"},
+            "a traction coefficient is a share of F_N and needs [contact]; state motion.traction.torque");
     if (!motion.traction_mu || !scene_.contact) return;
     const double largest = scene_.contact->largest_friction();
     require(

@@ -199,7 +199,7 @@ class SceneBuilder {
     const auto present = settings_.find(table.name + ".present");
     if (present == settings_.end() || present->second.origin.level < mentioned_at) return true;
     try {
-      return to_boolean(*present->second.node);
+      return to_boolean(*present->second.node, present->second.origin.notation());
     } catch (const InputError& error) {
       report(present->second.origin.place, present->first, error.what());
       return true;
@@ -246,7 +246,7 @@ class SceneBuilder {
       return;
     }
     try {
-      read_value(key, *setting.node, source_.folder, field);
+      read_value(key, *setting.node, source_.folder, field, setting.origin.notation());
     } catch (const InputError& error) {
       report(setting.origin.place, key.path, error.what());
     }
@@ -384,7 +384,8 @@ class SceneBuilder {
 }  // namespace
 
 SceneSource load_scene_source(const fs::path& path) {
-  return {path.string(), read_text_file(path, kLargestScene), path.parent_path()};
+  return {path.string(), read_text_file(path, kLargestScene),
+          fs::weakly_canonical(fs::absolute(path).parent_path())};
 }
 
 ResolvedScene resolve_scene(const SceneSource& source, const std::vector<std::string>& overrides) {

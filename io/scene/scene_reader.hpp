@@ -20,7 +20,8 @@ struct SceneSource {
   std::map<std::string, std::string> files = {};
 };
 
-/// Reads the file's text. Throws InputError when it is missing, unreadable, not text, or larger than 1 MB.
+/// Reads the file's text. Links to its folder are resolved: files that the scene names keep their paths when
+/// the links change. Throws InputError when the file is missing, unreadable, not text, or larger than 1 MB.
 SceneSource load_scene_source(const std::filesystem::path& path);
 
 struct ResolvedScene {

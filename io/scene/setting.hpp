@@ -21,6 +21,8 @@ struct Origin {
   Level level = Level::library;
   Place place;
   std::string source;  ///< as Entry::source
+
+  Notation notation() const { return level == Level::file ? Notation::toml : Notation::plain; }
 };
 
 struct Setting {

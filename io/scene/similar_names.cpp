@@ -60,7 +60,7 @@ std::string similar_path(std::string_view unknown) {
   const std::string near = similar_text(unknown, paths);
   if (std::find(kNamedTables.begin(), kNamedTables.end(), near + ".") != kNamedTables.end())
     return near + ".NAME";
-  if (!near.empty()) return near;
+  if (!near.empty() || leaf_of(unknown) == "present") return near;  // most tables have that key
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
   const auto elsewhere = std::find_if(paths.begin(), paths.end(), same_leaf);
   return elsewhere == paths.end() ? "" : *elsewhere;

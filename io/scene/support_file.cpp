@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <variant>
 
 #include "core/error.hpp"
@@ -47,6 +48,7 @@ ColumnRules rules_of(const Key& key) {
 
 void set(const Field& field, double value) {
   if (const auto* number = std::get_if<double*>(&field)) **number = value;
+  if (const auto* number = std::get_if<std::optional<double>*>(&field)) **number = value;
   if (const auto* number = std::get_if<int*>(&field)) **number = static_cast<int>(value);
   if (const auto* truth = std::get_if<bool*>(&field)) **truth = value != 0;
 }

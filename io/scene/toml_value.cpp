@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "io/files/absolute_path.hpp"
@@ -31,28 +34,38 @@ std::string number_in_toml(const std::string& text) {
   }
 }
 
+/// "24" of "024" and "+024"; empty for a number with a comma or a point.
+std::string whole_number_in_toml(const std::string& text) {
+  const std::string_view digits = std::string_view(text).substr(text.starts_with('+') ? 1 : 0);
+  const char* last = digits.data() + digits.size();
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), last, value);
+  return error == std::errc() && end == last ? fmt::format("{}", value) : "";
+}
+
 /// "true" of "True".
 std::string truth_in_toml(const std::string& text) {
   const std::string word = lower_case(text);
   return word == "true" || word == "false" ? word : "";
 }
 
-[[noreturn]] void wrong_type(const std::string& expected, const toml::node& node,
-                             Spelling spelling = nullptr) {
+[[noreturn]] void wrong_type(const std::string& expected, const toml::node& node, Spelling spelling = nullptr,
+                             Notation notation = Notation::toml) {
   const auto* text = spelling ? node.as_string() : nullptr;
   const std::string meant = text ? spelling(text->get()) : "";
-  if (!meant.empty() && parse_plain_value(text->get(), false)->is_string())
+  if (!meant.empty() && notation == Notation::plain && parse_plain_value(text->get(), false)->is_string())
     throw InputError(fmt::format("\"{}\" is not valid TOML; write {}", text->get(), meant));
-  throw InputError(fmt::format("expected {}, got {}", expected, describe_node(node)));
+  throw InputError(fmt::format("expected {}, got {}{}", expected, describe_node(node),
+                               meant.empty() ? "" : "; write " + meant));
 }
 
-double to_number(const toml::node& node, bool ratio) {
+double to_number(const toml::node& node, bool ratio, Notation notation = Notation::toml) {
   const auto* text = node.as_string();
   if (ratio && text) return parse_ratio(text->get());
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value)
     wrong_type(ratio ? "a number or a ratio such as \"1:40\"" : "a number without quotes", node,
-               number_in_toml);
+               number_in_toml, notation);
   if (!std::isfinite(*value)) throw InputError("the number must be finite");
   return *value;
 }
@@ -67,9 +80,9 @@ double to_quantity(const Quantity& quantity, const toml::node& node, std::string
   throw InputError(fmt::format("{} has no unit; {}", number, expectation(quantity, number, unit)));
 }
 
-int to_integer(const toml::node& node) {
+int to_integer(const toml::node& node, Notation notation) {
   const auto* integer = node.as_integer();
-  if (!integer) wrong_type("a whole number without quotes", node, number_in_toml);
+  if (!integer) wrong_type("a whole number without quotes", node, whole_number_in_toml, notation);
   if (integer->get() != static_cast<std::int64_t>(static_cast<int>(integer->get()))) {
     throw InputError(fmt::format("{} is too large", integer->get()));
   }
@@ -131,21 +144,22 @@ std::string describe_node(const toml::node& node) {
   return "a date or time";
 }
 
-bool to_boolean(const toml::node& node) {
+bool to_boolean(const toml::node& node, Notation notation) {
   const auto* truth = node.as_boolean();
-  if (!truth) wrong_type("true or false without quotes", node, truth_in_toml);
+  if (!truth) wrong_type("true or false without quotes", node, truth_in_toml, notation);
   return truth->get();
 }
 
-void read_value(const Key& key, const toml::node& node, const fs::path& folder, const Field& field) {
+void read_value(const Key& key, const toml::node& node, const fs::path& folder, const Field& field,
+                Notation notation) {
   const auto real = [&] {
     return key.kind == Kind::quantity ? to_quantity(*key.quantity, node, key.unit)
-                                      : to_number(node, key.kind == Kind::ratio);
+                                      : to_number(node, key.kind == Kind::ratio, notation);
   };
   if (const auto* number = std::get_if<double*>(&field)) **number = real();
   if (const auto* number = std::get_if<std::optional<double>*>(&field)) **number = real();
-  if (const auto* number = std::get_if<int*>(&field)) **number = to_integer(node);
-  if (const auto* truth = std::get_if<bool*>(&field)) **truth = to_boolean(node);
+  if (const auto* number = std::get_if<int*>(&field)) **number = to_integer(node, notation);
+  if (const auto* truth = std::get_if<bool*>(&field)) **truth = to_boolean(node, notation);
   if (const auto* text = std::get_if<std::string*>(&field)) **text = to_text(key, node, folder);
   if (const auto* damping = std::get_if<DampingField>(&field)) read_damping(*damping, node);
 }

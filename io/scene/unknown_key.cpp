@@ -104,6 +104,9 @@ std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) 
   for (const auto& [tables, name] : kOwnNames)
     if (parent + "." == tables) return fmt::format("{} consists of letters, digits, _ and -", name);
   const std::string what = is_a_table ? "table" : "key";
+  if (const std::optional<SceneTable> table = table_of(parent);
+      table && path == table->name + ".present" && !table->removable())
+    return fmt::format("unknown {}: [{}] is always there and cannot be left out", what, parent);
   const std::string instead =
       instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
   if (!instead.empty()) return fmt::format("unknown {}: {}", what, instead);

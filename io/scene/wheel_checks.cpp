@@ -1,6 +1,10 @@
 #include "io/scene/wheel_checks.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <numbers>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/mesh/wheel_shape.hpp"
@@ -14,6 +18,24 @@ bool has_arc(const WheelSpec& wheel) {
   return wheel.profile == "arc" || wheel.profile == "cylinder";
 }
 
+/// A part of a ring: the tread that meets the rail, which is longer than the way where the wheel spins faster
+/// than it rolls, and the overhang on both sides.
+void check_overhang(const Scene& scene, const WheelSpec& wheel, Require require) {
+  if (!wheel.overhang) return;
+  require(scene.gravity == 0, {"wheel.overhang", "scene.gravity"},
+          "a part of a ring is not balanced about its axle; state scene.gravity = \"0 m/s2\", or leave "
+          "the overhang out");
+  const double way = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+  const double spin = scene.motion ? std::max(1.0, scene.motion->spin_ratio()) : 1;
+  const double most = kLargestPart * std::numbers::pi * wheel.diameter - 2 * *wheel.overhang;
+  const std::string reason =
+      way < most
+          ? fmt::format(", because motion.creepage makes it spin {:.3g} times as fast as free rolling", spin)
+          : "";
+  require(way * spin < most, {"wheel.overhang", "motion.duration", "motion.creepage"},
+          fmt::format("the wheel rolls on most of its ring{}; leave the overhang out", reason));
+}
+
 void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
   require(has_arc(wheel), {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
   require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
@@ -24,13 +46,9 @@ void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
   const bool guided = wheel.bore == "guided";
   require(!guided || !scene.vehicle, {"wheel.bore", "vehicle"},
           "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
-  require(!wheel.overhang || scene.gravity == 0, {"wheel.overhang", "scene.gravity"},
-          "a part of a ring is not balanced about its axle; state scene.gravity = \"0 m/s2\", or leave "
-          "the overhang out");
-  const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-  require(!wheel.overhang || run + 2 * *wheel.overhang < kLargestPart * std::numbers::pi * wheel.diameter,
-          {"wheel.overhang", "motion.duration"},
-          "the wheel rolls on most of its ring; leave the overhang out");
+  require(!guided || scene.rail, {"wheel.bore", "rail"},
+          "a guided bore rolls on a rail; add [rail], or state wheel.bore = \"free\"");
+  check_overhang(scene, wheel, require);
 }
 
 void check_web_file(const WheelSpec& wheel, Require require) {

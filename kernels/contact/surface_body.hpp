@@ -144,13 +144,14 @@ struct StationLine {
     double pitch;     ///< [m or rad]
     double distance;  ///< from the first station [m or rad]
   };
-  /// Closed blocks take any angle; open ones return station -1 outside.
+  /// Closed blocks take any angle; open ones return station -1 outside, by more than rounding.
   TREAD_BODY Cell find(double coordinate) const {
+    constexpr double kRounding = 1e-10;  // of the span, which is a sum of pitches
     double at = coordinate - first;
     if (closed) {
       at -= span * std::floor(at / span);
       if (!(at >= 0 && at < span)) at = 0;  // what is not finite too
-    } else if (!(at >= 0 && at <= span)) {
+    } else if (!(at >= -kRounding * span && at <= (1 + kRounding) * span)) {
       return {-1, -1, 0, 0};
     }
     const int of_bucket = static_cast<int>(at / bucket_width);

@@ -75,6 +75,11 @@ TEST(SceneErrors, Names) {
        "suspension_damping, longitudinal, present)"},
       {"[motion]\ntraction = { mue = 0.3 }",
        "x.toml:4:14: motion.traction.mue: unknown key (did you mean motion.traction.mu?)"},
+      {"[solution_zone]\npresent = false",
+       "x.toml:4:1: solution_zone.present: unknown key: [solution_zone] is always there and cannot be left "
+       "out"},
+      {"[motion]\ntraction = { present = false }",
+       "x.toml:4:14: motion.traction.present: unknown key (known: mu, torque, ramp, shape, reversals)"},
   });
   expect_part(
       error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
@@ -120,7 +125,9 @@ TEST(SceneErrors, Types) {
        "um, km)"},
       {"[rail]\nprofile = 60", "x.toml:4:1: rail.profile: expected a string in quotes, got the number 60"},
       {"[contact]\nfriction = \"0.5\"",
-       "x.toml:4:1: contact.friction: expected a number without quotes, got the string \"0.5\""},
+       "x.toml:4:1: contact.friction: expected a number without quotes, got the string \"0.5\"; write 0.5"},
+      {"[contact]\nfriction = \".5\"",
+       "x.toml:4:1: contact.friction: expected a number without quotes, got the string \".5\"; write 0.5"},
       {"[contact]\nfriction = inf", "x.toml:4:1: contact.friction: the number must be finite"},
       {"[fastenings]\ncount = 23.5",
        "x.toml:4:1: fastenings.count: expected a whole number without quotes, got the number 23.5"},
@@ -213,13 +220,14 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "m"},
       {"[motion]\nduration = \"0.2 s\"",
        "x.toml:4:1: motion.duration: the wheel rolls to x = 16.6667 m, beyond 9.08 m, where it is 0.02 m "
-       "from the "
-       "rail's end"},
+       "from the rail's end; state a shorter motion.duration, or rail.length = \"22.9 m\" and "
+       "fastenings.count = 35"},
+      {"[motion]\nduration = \"0.2 s\"\n[rail]\nlength = \"22.9 m\"\n[fastenings]\ncount = 35", "accepted"},
       {"[motion]\nspeed = \"100 km/h\"\nduration = \"0.32 s\"\ntraction.mu = 0.3\n[vehicle]\nlongitudinal = "
        "\"free\"",
        "x.toml:5:1: motion.duration: the wheel rolls to x = 10.3188 m, beyond 9.08 m, where it is 0.02 m "
-       "from the "
-       "rail's end"},
+       "from the rail's end; state a shorter motion.duration, or rail.length = \"16.6 m\" and "
+       "fastenings.count = 26"},
       {"[rail]\norigin = \"0 m\"",
        "x.toml:4:1: rail.origin: the wheel starts at x = 0 m; the rail lets it start from 0.02 m on"},
       {"[motion]\nrun_up = \"9 m\"",
@@ -386,6 +394,18 @@ TEST(SceneErrors, TractionThatActsOnNothing) {
     EXPECT_EQ(traction(keys), "accepted") << keys;
 }
 
+TEST(SceneErrors, WheelsWithoutARail) {
+  std::string alone = kBase;
+  for (const char* table : {"rail", "fastenings", "slab", "contact", "vehicle"})
+    alone += fmt::format("[{}]\npresent = false\n", table);
+  EXPECT_EQ(error_of(alone), "accepted");
+  expect_part(error_of(alone + "[motion]\ntraction = { mu = 0.1 }"),
+              "motion.traction.mu: a traction coefficient is a share of F_N and needs [contact]; state "
+              "motion.traction.torque");
+  expect_part(error_of(alone + "[wheel]\nshape = \"tyre\"\nprofile = \"arc\"\nbore = \"guided\""),
+              "wheel.bore: a guided bore rolls on a rail; add [rail], or state wheel.bore = \"free\"");
+}
+
 TEST(SceneErrors, Materials) {
   const std::string own =
       "[material.wheel_steel]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.3\ndensity = \"7790 kg/m3\"\n";
@@ -491,7 +511,14 @@ TEST(SceneErrors, Overrides) {
        {std::pair{".5", "0.5"}, std::pair{"5.", "5"}, std::pair{"0,3", "0.3"}, std::pair{"05", "5"}})
     EXPECT_EQ(error_of(kBase, {fmt::format("contact.friction={}", typed)}),
               fmt::format("--set: contact.friction: \"{}\" is not valid TOML; write {}", typed, number));
-  expect_part(error_of(kBase, {"fastenings.count=024"}), "\"024\" is not valid TOML; write 24");
+  for (const char* typed : {"024", "+024"})
+    expect_part(error_of(kBase, {fmt::format("fastenings.count={}", typed)}),
+                fmt::format("\"{}\" is not valid TOML; write 24", typed));
+  for (const char* typed : {"1,000", "24.", "2,5"})
+    EXPECT_EQ(error_of(kBase, {fmt::format("fastenings.count={}", typed)}),
+              fmt::format("--set: fastenings.count: expected a whole number without quotes, got the string "
+                          "\"{}\"",
+                          typed));
   expect_part(error_of(kBase, {"slab.present=True"}), "\"True\" is not valid TOML; write true");
 }
 
@@ -843,6 +870,9 @@ TEST(SceneErrors, ValidateChecksScenesBuiltInCode) {
   scene.rail = RailSpec{};
   scene.rail->support = "free";
   scene.materials["steel"] = {"steel", 205.9e9, 0.3, 7790, 0};
+  ASSERT_EQ(validate(scene).size(), 1u);
+  EXPECT_EQ(validate(scene)[0].message, "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
+  scene.gravity = 0;
   EXPECT_TRUE(validate(scene).empty());
   Scene misnamed = scene;
   misnamed.materials.at("steel").name = "iron";

@@ -211,6 +211,9 @@ TEST(StationFinder, FindsTheCellOfOpenGradedBlocks) {
   }
   EXPECT_EQ(finder.find(block.stations.front() - 1e-9).station, -1);
   EXPECT_EQ(finder.find(block.stations.back() + 1e-9).station, -1);
+  // The span is a sum of pitches; ends of a scene's rail are not.
+  EXPECT_EQ(finder.find(block.stations.back() + 1e-12).station, block.station_count() - 2);
+  EXPECT_EQ(finder.find(block.stations.front() - 1e-12).station, 0);
   EXPECT_EQ(finder.find(block.stations.front()).station, 0);
 }
 

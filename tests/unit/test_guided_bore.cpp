@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "core/error.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
@@ -19,6 +22,15 @@ Scene guided_scene(const std::vector<std::string>& more) {
                                         "wheel.bore=guided"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return samples::tyre_scene(overrides);
+}
+
+std::string refusal(const std::vector<std::string>& more) {
+  try {
+    guided_scene(more);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 double dot_fields(const AlignedVector<double>& a, const AlignedVector<double>& b) {
@@ -45,6 +57,16 @@ TEST(GuidedBore, ReduceIsTheTransposeOfExpand) {
   AlignedVector<double> reduced = force;
   model.guide->reduce(reduced.data());
   EXPECT_NEAR(reduced[unknown] * rise[unknown], work, 1e-12 * std::abs(work));
+}
+
+/// The way is a quarter of a turn, and a whole one with the spin.
+TEST(GuidedBore, APartOfARingIsLongEnoughForTheSpin) {
+  std::vector<std::string> keys = {"wheel.overhang=60 mm", "rail.length=1.2 m", "motion.duration=9 ms"};
+  EXPECT_EQ(refusal(keys), "");
+  keys.emplace_back("motion.creepage=1.2");
+  EXPECT_EQ(refusal(keys),
+            "--set: wheel.overhang: the wheel rolls on most of its ring, because motion.creepage makes it "
+            "spin 4 times as fast as free rolling; leave the overhang out");
 }
 
 TEST(GuidedBore, StepKeepsTheMomentumUnderLoadAndTorque) {

@@ -134,6 +134,13 @@ TEST_F(ShareFolder, HoldsTheReferencesOfTheLibrary) {
   EXPECT_EQ(count(scene("corrugation-d.toml", {"scene.based_on=highspeed-slab-2014-calibrated"})), 8U);
   EXPECT_EQ(count(scene("corrugation-d.toml", {"fastenings.damping=150 kN s/m"})), 2U);
   EXPECT_EQ(count(scene("bar-wave.toml")), 0U);
+  EXPECT_EQ(count(scene("tyre.toml")), 1U);
+  EXPECT_EQ(count(scene("tyre.toml", {"wheel.crown_radius=0.4 m"})), 0U);
+  EXPECT_EQ(count(scene("corrugation-d.toml", {"wheel.lateral_offset=2.85 mm"})), 7U);
+  // The vehicle's load, step and elements stay.
+  for (const char* other : {"surface.a={ kind = 'dip', at = '1 m', depth = '0.1 mm', length = '0.2 m' }",
+                            "support.a={ fastening = 12, stiffness = 0 }"})
+    EXPECT_EQ(count(scene("corrugation-d.toml", {other})), 3U) << other;
   const std::vector<Marker> levels = creepage_levels(library_references(scene("smooth.toml")));
   ASSERT_EQ(levels.size(), 1U);
   EXPECT_EQ(levels[0].at, 0.276);

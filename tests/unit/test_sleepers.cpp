@@ -179,6 +179,17 @@ TEST(Supports, ABrokenOneLeavesTheRailToItsNeighbours) {
   EXPECT_LT(held(model), held(whole));
 }
 
+/// A damper that the scene states stays.
+TEST(Supports, ABrokenOneHasNoDamper) {
+  const auto share = [](std::vector<std::string> more) {
+    more.emplace_back("support.clip.fastening=2");
+    return samples::tyre_scene(ballasted(more)).support(1).damping_share();
+  };
+  EXPECT_EQ(share({}), 1);
+  EXPECT_EQ(share({"support.clip.stiffness=0"}), 0);
+  EXPECT_EQ(share({"support.clip.stiffness=0", "support.clip.damping=0.5"}), 0.5);
+}
+
 TEST(Supports, AShiftedOneTakesItsSleeperAlong) {
   const Model model(
       samples::tyre_scene(ballasted({"support.moved.fastening=1", "support.moved.shift=60 mm"})));
@@ -238,8 +249,8 @@ std::string support_file(const std::string& text) {
 
 TEST(SupportFile, IsTheSameAsTables) {
   const std::vector<std::string> tables = {
-      "support.a.fastening=1", "support.a.shift=20 mm", "support.a.stiffness=0.5", "support.b.fastening=3",
-      "support.b.damping=2",   "support.b.holds=false", "support.b.bed=0.25"};
+      "support.a.fastening=1", "support.a.shift=20 mm", "support.a.stiffness=0.5", "support.a.damping=1",
+      "support.b.fastening=3", "support.b.damping=2",   "support.b.holds=false",   "support.b.bed=0.25"};
   const Scene by_tables = samples::tyre_scene(ballasted(tables));
   const Scene by_file = samples::tyre_scene(ballasted(
       {"fastenings.supports=" + support_file("# measured [in May]\n"

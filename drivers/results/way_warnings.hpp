@@ -1,0 +1,21 @@
+#pragma once
+// Warnings of a way that does not pass what the scene evaluates, or that leaves the fastenings.
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "drivers/engine/station_plan.hpp"
+
+namespace tread {
+
+/// Sentence if a rolling wheel starts ahead of `aim`, or does not come to x = `enough` [m] of it; else "".
+/// `what` names the aim, `lost` states the consequence.
+std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
+                        const char* lost);
+
+/// Appends a sentence for the solution zone or the corrugation, each [zone.NAME] and the fastenings; "" where
+/// the wheel's way is sound. Of a scene with [contact].
+void add_way_warnings(const Scene& scene, std::vector<std::string>& warnings);
+
+}  // namespace tread

@@ -1,0 +1,30 @@
+#include "io/scene/rail_reach.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/travel.hpp"
+#include "io/scene/require.hpp"
+#include "io/scene/schema.hpp"
+
+namespace tread {
+
+int most_fastenings(const FasteningSpec& fastenings, double rail_length) {
+  const double most = find_key("fastenings.count")->range.high;
+  const double room = rail_length - 0.5 * fastenings.pad_length - fastenings.first + kLengthTolerance;
+  const double spans = room / fastenings.spacing;
+  return spans >= 0 ? static_cast<int>(std::min(spans, most - 1)) + 1 : 1;
+}
+
+std::string keys_to_reach(const Scene& scene, double x) {
+  constexpr double kSpare = 0.1;   // the stated duration is rounded up [m]
+  constexpr double kDigits = 0.1;  // of the stated length [m]
+  const double length = kDigits * std::ceil((x + kSpare + kRailEndMargin + scene.rail->origin) / kDigits);
+  const std::string keys = fmt::format("rail.length = \"{:.6g} m\"", length);
+  if (!scene.fastenings) return keys;
+  return fmt::format("{} and fastenings.count = {}", keys, most_fastenings(*scene.fastenings, length));
+}
+
+}  // namespace tread

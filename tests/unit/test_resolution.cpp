@@ -1,0 +1,146 @@
+// Warnings of scenes whose mesh, samples, way or depths do not show what they ask for.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+#include "drivers/results/resolution.hpp"
+#include "drivers/results/run_warnings.hpp"
+#include "io/scene/resolving_size.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+bool any_has(const std::vector<std::string>& warnings, const std::string& part) {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+}
+
+std::vector<std::string> of_tyre(Overrides overrides) {
+  overrides.emplace_back("scene.element_size=12 mm");
+  return resolution_warnings(Model(samples::tyre_scene(overrides)));
+}
+
+TEST(ElementSize, IsNamedWhereTheKeyTakesIt) {
+  EXPECT_EQ(resolving_size(3e-4, "it"), "scene.element_size = \"0.3 mm\" resolves it");
+  EXPECT_EQ(resolving_size(3e-5, "it"), "no mesh resolves it: scene.element_size is at least 0.05 mm");
+}
+
+TEST(EdgeWarning, IsOfProfilesThatTouchBesideOneAnother) {
+  const std::string cut = "an edge cuts the patch";
+  EXPECT_FALSE(any_has(of_tyre({}), cut));
+  EXPECT_TRUE(any_has(of_tyre({"wheel.lateral_offset=45 mm"}), cut));
+}
+
+TEST(FasteningWarning, NamesKeysThatFillTheRail) {
+  const auto track = [](const char* first, const char* origin, const char* count) {
+    return of_tyre({"rail.support=fastenings", "rail.height=150 mm", "rail.length=2.4 m",
+                    std::string("rail.origin=") + origin, std::string("fastenings.first=") + first,
+                    std::string("fastenings.count=") + count, "fastenings.spacing=0.6 m",
+                    "fastenings.pad_width=40 mm"});
+  };
+  EXPECT_FALSE(any_has(track("0.1 m", "1.2 m", "4"), "carries the rail"));
+  EXPECT_TRUE(
+      any_has(track("0.1 m", "1.6 m", "1"), "carries the rail beyond it; state fastenings.count = 4"));
+  EXPECT_TRUE(any_has(track("1.3 m", "0.2 m", "2"),
+                      "ahead of it; state fastenings.first = \"0.1 m\" and fastenings.count = 4"));
+}
+
+TEST(HammerWarning, IsOfBlowsThatAreNotResolved) {
+  const auto blow = [](const Overrides& more) {
+    Overrides all = {"rail.length=1.3 m", "rail.origin=0.65 m", "fastenings.count=2",
+                     "scene.element_size=11 mm"};
+    all.insert(all.end(), more.begin(), more.end());
+    return resolution_warnings(
+        Model(read_scene(std::filesystem::path(TREAD_SOURCE_DIR) / "scenes/hammer.toml", all)));
+  };
+  EXPECT_EQ(blow({}), Overrides{});
+  EXPECT_TRUE(any_has(blow({"hammer.duration=0.1 ms"}), "5 samples: below 8"));
+  EXPECT_TRUE(any_has(blow({"hammer.duration=1 us"}), "neither steps nor elements resolve it"));
+  EXPECT_TRUE(any_has(blow({"motion.duration=0.1 ms"}), "is cut off at the run's end"));
+  EXPECT_TRUE(any_has(blow({"motion.duration=0.1 ms"}), "fewer than 10 samples"));
+}
+
+/// A map of 50 mm by 10 mm that is 10 um deep all over.
+class MapWarnings : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream file(path_);
+    file << "# x [mm]  y [mm]  d [um]\n";
+    for (const char* y : {" -5", " 0", " 5"})
+      for (const char* x : {"0", "25", "50"}) file << x << y << " 10\n";
+  }
+  std::vector<std::string> corrugation(const std::string& centre) const {
+    return of_tyre({"corrugation.kind=map", "corrugation.file=" + path_.string(), "corrugation.start=50 mm",
+                    "corrugation.centre=" + centre});
+  }
+
+  samples::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path / "map.txt";
+};
+
+TEST_F(MapWarnings, AreOfWhereTheCentrePutsTheRows) {
+  EXPECT_TRUE(any_has(corrugation("0 mm"), "y = -5 and 5 mm, are up to 10 and 10 um deep"));
+  EXPECT_FALSE(any_has(corrugation("0 mm"), "beside what the wheel can touch"));
+  EXPECT_FALSE(any_has(corrugation("60 mm"), "the outer rows of"));
+  EXPECT_TRUE(any_has(corrugation("60 mm"), "corrugation lies at y = 55 to 65 mm, beside what the wheel"));
+  EXPECT_TRUE(any_has(of_tyre({"surface.a.kind=map", "surface.a.file=" + path_.string(), "surface.a.at=50 mm",
+                               "surface.a.centre=60 mm"}),
+                      "its outer row alone has an effect; change surface.a.centre"));
+}
+
+TEST(CorrugationWarnings, AreOfPlaceWidthAndSlope) {
+  const auto waves = [](Overrides more) {
+    for (const char* key : {"corrugation.start=50 mm", "corrugation.length=50 mm"}) more.emplace_back(key);
+    return of_tyre(more);
+  };
+  const std::string beside = "beside what the wheel can touch", narrow = "the width of the corrugation has";
+  const Overrides sine = {"corrugation.wavelength=50 mm", "corrugation.depth=0.01 mm"};
+  const auto with = [&](Overrides more) {
+    more.insert(more.end(), sine.begin(), sine.end());
+    return waves(more);
+  };
+  EXPECT_FALSE(any_has(with({"corrugation.width=70 mm"}), beside));
+  EXPECT_FALSE(any_has(with({"corrugation.width=70 mm"}), narrow));
+  EXPECT_TRUE(any_has(with({"corrugation.width=10 mm", "corrugation.centre=60 mm"}), beside));
+  EXPECT_TRUE(any_has(with({"corrugation.width=10 mm"}), narrow));
+  EXPECT_TRUE(any_has(waves({"corrugation.kind=random", "corrugation.rms=2 mm", "corrugation.longest=50 mm"}),
+                      "look at the units of corrugation.rms"));
+}
+
+TEST(SurfaceWarnings, AreOfSlopesButNotOfFlats) {
+  const auto surface = [](const Overrides& keys) {
+    Overrides all = {"surface.a.at=75 mm"};
+    for (const std::string& key : keys) all.push_back("surface.a." + key);
+    return of_tyre(all);
+  };
+  const std::string units = "look at the units of surface.a.depth";
+  EXPECT_TRUE(any_has(surface({"kind=dip", "length=20 mm", "depth=5 mm"}), units));
+  EXPECT_FALSE(any_has(surface({"kind=dip", "length=20 mm", "depth=0.5 mm"}), units));
+  EXPECT_FALSE(any_has(surface({"kind=flat", "length=180 mm"}), "look at the units"));
+}
+
+TEST(EnergyWarning, IsNotOfAWheelAlone) {
+  RunResults results;
+  results.samples.resize(1);
+  results.energy_error = 0.6;
+  const auto warns = [&](Overrides more) {
+    more.emplace_back("scene.element_size=12 mm");
+    return any_has(run_warnings(Model(samples::tyre_scene(more)), results), "the energies miss");
+  };
+  EXPECT_TRUE(warns({}));
+  EXPECT_FALSE(warns({"rail.present=false", "contact.present=false", "load.present=false"}));
+}
+
+}  // namespace
+}  // namespace tread
