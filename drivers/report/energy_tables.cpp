@@ -3,9 +3,19 @@
 #include <fmt/core.h>
 
 #include "drivers/report/mesh_measures.hpp"
+#include "drivers/results/run_warnings.hpp"
 #include "io/report/markup.hpp"
+#include "kernels/material/law_state.hpp"
 
 namespace tread {
+
+std::string energy_error_text(const Model& model, const RunResults& r) {
+  return fmt::format(
+      "Energy error {} %: largest residual over the sum of frictional work, losses in dampers{}{} and range "
+      "of strain energy{}.",
+      readable(100 * r.energy_error, 2), model.has_branches() ? ", losses in materials" : "",
+      has_laws(model.mesh) ? ", plastic work" : "", uncounted_loss(model));
+}
 
 Table body_energy_table(const Model& model, const RunResults& r) {
   Table table{r.part_energy.empty() ? "Energy of deformation" : "Energy of deformation at the end",

@@ -13,9 +13,8 @@ void mark_track(const Scene& scene, const Corrugation& corrugation, const Range&
   if (!corrugation.smooth() && corrugation.first() < range[1])
     figure.bands.push_back({corrugation.first(), corrugation.last(), "corrugation"});
   if (!scene.fastenings || !scene.rail) return;
-  const FasteningSpec& f = *scene.fastenings;
-  for (int i = 0; i < f.count; ++i) {
-    const double x = -scene.rail->origin + f.first + i * f.spacing;
+  for (int i = 0; i < scene.fastenings->count; ++i) {
+    const double x = scene.fastening_x(i);
     if (x > range[0] && x < range[1]) figure.positions.push_back({x, ""});
   }
   if (!figure.positions.empty()) figure.caption += "Vertical lines: fastenings. ";
@@ -54,9 +53,8 @@ Series running_surface(const Corrugation& corrugation, const Range& range) {
   return series;
 }
 
-std::vector<Series> running_surfaces(const Model& model, const Range& range) {
+std::vector<Series> running_surfaces(const Model& model, double y, const Range& range) {
   const SurfacePair& pair = model.contact->surfaces();
-  const double y = pair.corrugation().centre();
   std::vector<Series> list;
   const auto add = [&](const char* name, const auto& depth) {
     constexpr int kPoints = 800;

@@ -19,9 +19,9 @@ void mark_track(const Model& model, const Range& range, Figure& figure);
 /// Height of the corrugated surface on its deepest line [mm].
 Series running_surface(const Corrugation& corrugation, const Range& range);
 
-/// Heights of the rail's surface and of that part of the wheel's that meets it [mm]; smooth ones are left
-/// out.
-std::vector<Series> running_surfaces(const Model& model, const Range& range);
+/// Heights of the rail's surface at y [m] and of that part of the wheel's that meets it [mm]; smooth ones are
+/// left out.
+std::vector<Series> running_surfaces(const Model& model, double y, const Range& range);
 
 /// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);

@@ -15,7 +15,7 @@ void state_provenance(Report& report, const std::string& scene, const Provenance
   const std::string machine = fmt::format("{}, {}, {} cores", host_name(), processor_name(), machine_cores());
   report.chapters.push_back({"Provenance",
                              {Table{"",
-                                    {{"Quantity"}, {"Value"}},
+                                    {{"Quantity"}, {.title = "Value", .plain = true}},
                                     {{"Program", provenance.program},
                                      {"Command", provenance.command},
                                      {"Scene", scene},

@@ -76,7 +76,8 @@ Figure force_figure(const Model& model, const RunResults& r) {
             {curve("f F_N", model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
              curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
             {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
-  if (std::vector<Series> surfaces = running_surfaces(model, *figure.x_range); !surfaces.empty())
+  const double patch_y = r.preload.contact.centre.y;
+  if (std::vector<Series> surfaces = running_surfaces(model, patch_y, *figure.x_range); !surfaces.empty())
     figure.panels.push_back(panel("Surface [mm]", std::move(surfaces), {}, 90));
   figure.caption += fmt::format("Where F_L meets f F_N the whole patch slides. f = {:g}", f);
   figure.caption += scene.contact->friction_law == "coulomb" ? "." : ", the largest coefficient of friction.";

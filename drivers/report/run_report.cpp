@@ -21,7 +21,6 @@
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
-#include "drivers/results/run_warnings.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
@@ -57,7 +56,9 @@ struct Run {
 class Quantities {
  public:
   explicit Quantities(std::string title)
-      : table_{std::move(title), {{"Quantity"}, {"Value", Align::right}, {"Unit"}, {"Remark"}}, {}} {}
+      : table_{std::move(title),
+               {{"Quantity"}, {"Value", Align::right}, {"Unit"}, {.title = "Remark", .plain = true}},
+               {}} {}
   void add(std::string name, double value, std::string unit, std::string remark = "") {
     add_text(std::move(name), readable(value), std::move(unit), std::move(remark));
   }
@@ -236,10 +237,7 @@ Chapter energy_chapter(const Run& run) {
   const RunResults& r = run.results;
   if (!r.samples.empty()) {
     chapter.blocks.emplace_back(energy_figure(run.model, r));
-    chapter.blocks.emplace_back(
-        Text{fmt::format("Energy error {} %: largest residual over the sum of frictional work, losses in "
-                         "dampers and range of strain energy{}.",
-                         readable(100 * r.energy_error, 2), uncounted_loss(run.model))});
+    chapter.blocks.emplace_back(Text{energy_error_text(run.model, r)});
     if (run.model.contact) chapter.blocks.emplace_back(momentum_table(r.momentum, r.momentum_error));
   }
   chapter.blocks.emplace_back(body_energy_table(run.model, r));
@@ -299,7 +297,12 @@ Chapter cost_chapter(const Run& run) {
 }
 
 Chapter scene_chapter(const Run& run) {
-  Table table{"", {{"Key"}, {"Value"}, {"Source"}, {"Meaning"}}, {}};
+  Table table{"",
+              {{.title = "Key", .plain = true},
+               {.title = "Value", .plain = true},
+               {.title = "Source", .plain = true},
+               {"Meaning"}},
+              {}};
   for (const Entry& entry : run.resolved.entries) {
     std::string meaning = entry.description;
     std::erase(meaning, '`');

@@ -138,7 +138,7 @@ PatchMovie patch_movie(const Model& model, const RunResults& r) {
     if (later != r.samples.end())
       frame.note +=
           fmt::format(", F_N {:.2f} kN, F_L {:.2f} kN, creepage {:.3f} %", 1e-3 * later->vertical_force,
-                      1e-3 * later->longitudinal_force, 100 * later->creepage_node);
+                      1e-3 * later->longitudinal_force, 100 * later->creepage_mean);
     frame.fields.resize(movie.labels.size());
     for (int i = 0; i < window.stations(); ++i) {
       frame.x.push_back(1e3 * window.x(i));

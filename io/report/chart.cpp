@@ -174,17 +174,17 @@ std::string curves_svg(const Panel& panel, const Layout& at, const Scale& y) {
   std::string svg;
   int number = at.first_series;
   for (const Series& series : panel.series)
-    svg += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", curve_style(series, number++),
-                       path_data(series, at.x, y));
+    svg += fmt::format("<path class=\"{}\" data-name=\"{}\" d=\"{}\"/>\n", curve_style(series, number++),
+                       html_escaped(series.label), path_data(series, at.x, y));
   return clipped(at.top, at.bottom, svg);
 }
 
 std::string panel_svg(const Panel& panel, const Layout& at) {
   const Scale y{y_range(panel, at.x.value), {at.bottom, at.top}};
   std::string svg = fmt::format(
-      "<g class=\"panel\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-top=\"{:.1f}\" "
+      "<g class=\"panel\" data-label=\"{}\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-top=\"{:.1f}\" "
       "data-bottom=\"{:.1f}\">\n",
-      y.value[0], y.value[1], at.top, at.bottom);
+      html_escaped(panel.y_label), y.value[0], y.value[1], at.top, at.bottom);
   const std::vector<double> values = ticks(y.value[0], y.value[1], tick_count(panel.height));
   const TickFormat format(values);
   for (const double v : values) {
@@ -204,7 +204,8 @@ std::string panel_svg(const Panel& panel, const Layout& at) {
 std::string abscissa_svg(const Figure& figure, const Scale& x, double bottom) {
   const std::vector<double> values = ticks(x.value[0], x.value[1], 9);
   const TickFormat format(values);
-  std::string svg = fmt::format("<g class=\"abscissa\" data-factor=\"{:g}\">\n", format.factor());
+  std::string svg = fmt::format("<g class=\"abscissa\" data-label=\"{}\" data-factor=\"{:g}\">\n",
+                                html_escaped(figure.x_label), format.factor());
   for (const double v : values) {
     svg += svg_line("axis xtick", x(v), bottom, x(v), bottom + 5);
     svg += svg_label("tick middle xtick", x(v), bottom + 18, format(v));

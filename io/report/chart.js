@@ -19,8 +19,8 @@ for (const figure of document.querySelectorAll("figure.chart")) {
         ["low", "high", "top", "bottom"].map((key) => Number(panel.dataset[key]));
     return [...panel.querySelectorAll(".curve")].map((path) => {
       const points = path.getAttribute("d").split(/(?=[ML])/).map((p) => p.slice(1).split(" ").map(Number));
-      const label = panel.querySelector(".name").textContent;
-      return {points, label, value: (y) => bottomValue + (base - y) / (base - top) * (topValue - bottomValue)};
+      const value = (y) => bottomValue + (base - y) / (base - top) * (topValue - bottomValue);
+      return {points, name: path.dataset.name, label: panel.dataset.label, value};
     });
   });
   const cursor = svg.appendChild(element("line", {class: "cursor", y1: 18, y2: bottom, visibility: "hidden"}));
@@ -93,7 +93,7 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     }
   };
 
-  figure.abscissa = [...svg.querySelectorAll(".abscissa .name")].pop().textContent;
+  figure.abscissa = abscissaMarks.dataset.label;
   // As much of it as the figure has.
   figure.zoom = (from, to) => {
     if (from < high && to > low) show(Math.max(from, low), Math.min(to, high));
@@ -125,16 +125,14 @@ for (const figure of document.querySelectorAll("figure.chart")) {
   svg.addEventListener("pointerleave", leave);
   // The points as drawn, to five digits of the range shown.
   figure.curvesAsCsv = (quoted) => {
-    const names = [...figure.querySelectorAll(".legend .key:not(.at)")].filter((key) => key.querySelector("output"))
-        .map((key) => key.firstChild.nextSibling.textContent);
     const lines = [["curve", "axis", figure.abscissa, "value"].map(quoted).join()];
-    curves.forEach((curve, i) => {
+    for (const curve of curves)
       for (const point of curve.points) {
         if (point.length !== 2) continue;
         const x = low + (point[0] - left) / (right - left) * (high - low);
-        lines.push([quoted(names[i]), quoted(curve.label), x.toPrecision(7), curve.value(point[1]).toPrecision(6)].join());
+        const values = [x.toPrecision(7), curve.value(point[1]).toPrecision(6)];
+        lines.push([quoted(curve.name), quoted(curve.label), ...values].join());
       }
-    });
     return lines.join("\n") + "\n";
   };
   svg.addEventListener("dblclick", () => zoomAll(-Infinity, Infinity));

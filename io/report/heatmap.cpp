@@ -23,21 +23,18 @@ constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // left border of the co
 constexpr double kScaleWidth = 18;
 constexpr int kShades = 48;  // number of shades of the colour scale
 
-/// Borders of the cells about evenly spaced values.
-struct Cells {
-  double first, pitch;
-  double border(std::size_t i) const { return first + (static_cast<double>(i) - 0.5) * pitch; }
-};
-
-Cells cells(const std::vector<double>& values) {
-  const double pitch =
-      values.size() > 1 ? (values.back() - values.front()) / static_cast<double>(values.size() - 1) : 1;
-  return {values.front(), pitch};
+/// Borders of the cells about values in order; the outer cells reach as far out as in.
+std::vector<double> cell_borders(const std::vector<double>& values) {
+  if (values.size() == 1) return {values.front() - 0.5, values.front() + 0.5};
+  std::vector<double> borders = {1.5 * values[0] - 0.5 * values[1]};
+  for (std::size_t i = 1; i < values.size(); ++i) borders.push_back(0.5 * (values[i - 1] + values[i]));
+  borders.push_back(2 * values.back() - borders.back());
+  return borders;
 }
 
 class Plot {
  public:
-  explicit Plot(const Heatmap& map) : map_(map), along_(cells(map.x)), up_(cells(map.y)) {
+  explicit Plot(const Heatmap& map) : map_(map), along_(cell_borders(map.x)), up_(cell_borders(map.y)) {
     if (map.values.size() != map.x.size() * map.y.size() ||
         (!map.marked.empty() && map.marked.size() != map.values.size()))
       throw std::logic_error("heatmap '" + map.title + "': a value per cell is needed");
@@ -58,12 +55,10 @@ class Plot {
 
  private:
   double x(double v) const {
-    const double first = along_.border(0);
-    return kLeft + kPlotWidth * (v - first) / (along_.border(map_.x.size()) - first);
+    return kLeft + kPlotWidth * (v - along_.front()) / (along_.back() - along_.front());
   }
   double y(double v) const {
-    const double first = up_.border(0);
-    return kTop + kPlotHeight * (1 - (v - first) / (up_.border(map_.y.size()) - first));
+    return kTop + kPlotHeight * (1 - (v - up_.front()) / (up_.back() - up_.front()));
   }
   double share(double value) const { return (value - low_) / (high_ - low_); }
 
@@ -71,11 +66,11 @@ class Plot {
     std::string out;
     for (std::size_t j = 0; j < map_.y.size(); ++j)
       for (std::size_t i = 0; i < map_.x.size(); ++i) {
-        const double left = x(along_.border(i));
-        const double top = y(up_.border(j + 1));
-        out += fmt::format(
-            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", left, top,
-            x(along_.border(i + 1)) - left, y(up_.border(j)) - top, shade(share(map_.at(i, j))));
+        const double left = x(along_[i]);
+        const double top = y(up_[j + 1]);
+        out +=
+            fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
+                        left, top, x(along_[i + 1]) - left, y(up_[j]) - top, shade(share(map_.at(i, j))));
       }
     return out;
   }
@@ -89,11 +84,9 @@ class Plot {
     for (std::size_t j = 0; j < map_.y.size(); ++j)
       for (std::size_t i = 0; i < nx; ++i) {
         if (i + 1 < nx && marked(i, j) != marked(i + 1, j))
-          path += fmt::format("M{:.1f} {:.1f}V{:.1f}", x(along_.border(i + 1)), y(up_.border(j)),
-                              y(up_.border(j + 1)));
+          path += fmt::format("M{:.1f} {:.1f}V{:.1f}", x(along_[i + 1]), y(up_[j]), y(up_[j + 1]));
         if (j + 1 < map_.y.size() && marked(i, j) != marked(i, j + 1))
-          path += fmt::format("M{:.1f} {:.1f}H{:.1f}", x(along_.border(i)), y(up_.border(j + 1)),
-                              x(along_.border(i + 1)));
+          path += fmt::format("M{:.1f} {:.1f}H{:.1f}", x(along_[i]), y(up_[j + 1]), x(along_[i + 1]));
       }
     return "<path class=\"outline\" d=\"" + path + "\"/>\n";
   }
@@ -175,7 +168,7 @@ class Plot {
   }
 
   const Heatmap& map_;
-  Cells along_, up_;
+  std::vector<double> along_, up_;  ///< borders of the cells, in the units of the labels
   double low_ = 0, high_ = 1;
 };
 

@@ -22,7 +22,7 @@ struct HeatLine {
   std::string label;         ///< label written at the line's end
 };
 
-/// Cells about evenly spaced x and y.
+/// Cells about x and y in order, with borders halfway between neighbours.
 struct Heatmap {
   std::string title;
   std::string x_label, y_label, value_label;  ///< labels with units

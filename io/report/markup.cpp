@@ -17,14 +17,21 @@ bool alphanumeric(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
+/// Returns true for characters that join words to a name, a path or a key of a scene.
+bool joining(char c) {
+  return c == '_' || c == '-' || c == '.' || c == '/' || c == '\\';
+}
+
 /// Length of the subscript that follows text[i] = letter and text[i + 1] = '_'; 0 if there is none.
 std::size_t subscript_length(std::string_view text, std::size_t i) {
   const auto at = [&](std::size_t k) { return k < text.size() ? text[k] : ' '; };
-  const bool starts_word = i == 0 || (!alphanumeric(text[i - 1]) && text[i - 1] != '_');
+  const bool starts_word = i == 0 || (!alphanumeric(text[i - 1]) && !joining(text[i - 1]));
   if (!starts_word || std::isalpha(static_cast<unsigned char>(text[i])) == 0 || at(i + 1) != '_') return 0;
   std::size_t length = 0;
   while (alphanumeric(at(i + 2 + length))) ++length;
-  return length <= 2 && at(i + 2 + length) != '_' ? length : 0;
+  const std::size_t end = i + 2 + length;
+  const bool ends_sentence = at(end) == '.' && !alphanumeric(at(end + 1));
+  return length <= 2 && (ends_sentence || !joining(at(end))) ? length : 0;
 }
 
 std::string escaped(char c) {
@@ -63,6 +70,12 @@ std::string without_end_zeros(std::string decimal) {
 }
 
 }  // namespace
+
+std::string html_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += escaped(c);
+  return out;
+}
 
 std::string html_text(std::string_view text) {
   return marked_up(text, "<sub>", "</sub>");

@@ -6,8 +6,11 @@
 
 namespace tread {
 
-/// Text for HTML with special characters escaped. A single letter with a subscript of one or two characters
-/// ("F_N", "d_m") is set as such; other underscores ("vertical_force") stay.
+/// Text for HTML with special characters escaped.
+std::string html_escaped(std::string_view text);
+
+/// The same with subscripts of one or two characters after a single letter ("F_N", "d_m"). Other underscores
+/// ("vertical_force", "c_1.toml", "runs/c_1") stay.
 std::string html_text(std::string_view text);
 
 /// Text for the content of an SVG text element, set as html_text() does.

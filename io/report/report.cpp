@@ -15,7 +15,7 @@ namespace {
 
 std::string cell(const char* tag, const Column& column, const std::string& text) {
   return fmt::format("<{0}{1}>{2}</{0}>", tag, column.align == Align::right ? " class=\"right\"" : "",
-                     html_text(text));
+                     column.plain ? html_escaped(text) : html_text(text));
 }
 
 std::string html(const Text& text) {
@@ -113,10 +113,10 @@ std::string report_html(const Report& report) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}</title>\n<style>\n{7}{1}</style>\n</head>\n<body>\n"
-      "<header>\n<h1>{0}</h1>\n<p>{2}</p>\n<nav>\n{3}</nav>\n</header>\n{4}"
+      "<header>\n<h1>{8}</h1>\n<p>{2}</p>\n<nav>\n{3}</nav>\n</header>\n{4}"
       "<footer>{5}</footer>\n<script>\n{6}</script>\n</body>\n</html>\n",
-      html_text(report.title), kReportStyle, html_text(report.subtitle), nav, body, html_text(report.footer),
-      kReportScript, kFigureStyle);
+      html_escaped(report.title), kReportStyle, html_escaped(report.subtitle), nav, body,
+      html_escaped(report.footer), kReportScript, kFigureStyle, html_text(report.title));
 }
 
 }  // namespace tread

@@ -25,6 +25,7 @@ enum class Align { left, right };
 struct Column {
   std::string title;
   Align align = Align::left;
+  bool plain = false;  ///< true for names, commands and values, whose underscores stay
 };
 
 struct Table {
@@ -68,7 +69,8 @@ struct Comparison {
 /// Table with the columns quantity, unit, reference, ours, difference in per cent of the reference, remark.
 Table comparison_table(std::string title, const std::string& reference, const std::vector<Comparison>& rows);
 
-/// The report as HTML. All text is plain; "F_N" and the like are set with subscripts.
+/// The report as HTML. All text is plain; "F_N" and the like are set with subscripts, but not in plain
+/// columns, subtitle and footer.
 std::string report_html(const Report& report);
 
 }  // namespace tread

@@ -1,12 +1,17 @@
-// The rail's surface about the wheel: places of its samples, and asymmetry.
+// The rail's surface about the wheel: places of its samples, asymmetry, and the sample that is noted.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "core/mesh/structured.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
 #include "drivers/results/deflection.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -48,6 +53,21 @@ TEST(Deflection, IsReadAboutTheWheel) {
   }
   EXPECT_LT(Deflection::asymmetry(d.at_rest), 1e-6);
   EXPECT_GT(Deflection::asymmetry(d.rolling), 0.1);
+}
+
+/// The zone's middle lies at x = -35 mm; the wheel starts at x = 0.
+TEST(Deflection, IsNotedOnceWhereTheWheelStartsBeyondTheMiddleOfTheZone) {
+  Model model(samples::tyre_scene({"scene.element_size=12 mm", "solution_zone.start=-60 mm"}));
+  const Preload preload = solve_preload(model, steady_motion(model), [](const std::string& /*text*/) {});
+  Simulation simulation(model, preload, 1e-7);
+  simulation.set_sampling_interval(1);
+  simulation.step();
+  const RailLine& line = *simulation.rail_line();
+  const double wheel_x = line.wheel_x();
+  EXPECT_GT(wheel_x, 0);
+  EXPECT_LT(*std::min_element(line.rolling().begin(), line.rolling().end()), -1e-6);
+  simulation.step();
+  EXPECT_EQ(line.wheel_x(), wheel_x);
 }
 
 }  // namespace

@@ -70,6 +70,17 @@ TEST(Chart, CurveLandsOnThePageGeometry) {
   EXPECT_NE(html.find("F<sub>N</sub> &lt; 200 kN"), std::string::npos);
 }
 
+/// chart.js writes the curves as CSV under these names; values there have no factor.
+TEST(Chart, CurvesAndAxesCarryTheirNames) {
+  Figure figure = one_curve({0, 1e-3}, {0, 2e6});
+  figure.x_label = "Time \"t\" [s]";
+  const std::string html = figure_html(figure);
+  EXPECT_EQ(count(html, " × 10"), 2U) << html;
+  EXPECT_EQ(count(html, "data-name=\"F_N\""), 1U) << html;
+  EXPECT_EQ(count(html, "data-label=\"Force [kN]\""), 1U) << html;
+  EXPECT_EQ(count(html, "data-label=\"Time &quot;t&quot; [s]\""), 1U) << html;
+}
+
 TEST(Chart, ValuesThatAreNotFiniteBreakTheLine) {
   const std::string html = figure_html(one_curve({0, 1, 2, 3, 4}, {0, 1, std::nan(""), 1, 0}));
   const std::size_t path = html.rfind("<path class=\"curve c0 solid\"");
@@ -98,7 +109,10 @@ TEST(Markup, NumbersAreReadable) {
 
 TEST(Markup, OnlySingleLettersTakeSubscripts) {
   EXPECT_EQ(html_text("f F_N, d_m and N_cr"), "f F<sub>N</sub>, d<sub>m</sub> and N<sub>cr</sub>");
-  EXPECT_EQ(html_text("vertical_force x_start a_b_c"), "vertical_force x_start a_b_c");
+  EXPECT_EQ(html_text("F_N. F_L / F_N"), "F<sub>N</sub>. F<sub>L</sub> / F<sub>N</sub>");
+  for (const char* text :
+       {"vertical_force x_start a_b_c", "c_1.toml", "runs/c_1", "c_1/report.html", "probe.a_1", "smooth-c_1"})
+    EXPECT_EQ(html_text(text), text);
   EXPECT_EQ(html_text("<a&\"b\">"), "&lt;a&amp;&quot;b&quot;&gt;");
 }
 
@@ -135,6 +149,15 @@ TEST(Heatmap, CellsStandAtTheirPlaces) {
   EXPECT_EQ(count(heatmap_svg(map), ".c0 { stroke: #1f5fa8; }"), 1U) << heatmap_svg(map);
   map.values.pop_back();
   EXPECT_THROW(heatmap_html(map), std::logic_error);
+}
+
+TEST(Heatmap, BordersStandHalfwayBetweenNeighbours) {
+  const std::string html =
+      heatmap_html({"", "Speed", "Wave", "max", {0, 1, 3}, {0}, {0, 1, 2}, {}, "", {}, {}, ""});
+  // Borders -0.5, 0.5, 2 and 4 over 700 px.
+  EXPECT_NE(html.find("x=\"72.0\" y=\"18.0\" width=\"155.6\""), std::string::npos) << html;
+  EXPECT_NE(html.find("x=\"227.6\" y=\"18.0\" width=\"233.3\""), std::string::npos) << html;
+  EXPECT_NE(html.find("x=\"460.9\" y=\"18.0\" width=\"311.1\""), std::string::npos) << html;
 }
 
 TEST(Relief, WhatStandsBeforeIsDrawnLast) {
@@ -222,6 +245,18 @@ TEST(Report, IsOneFileThatNeedsNoNetwork) {
   EXPECT_NE(html.find("a &lt; b"), std::string::npos);
   report.chapters[1].blocks.push_back(Table{"t", {{"one"}, {"two"}}, {{"value"}}});
   EXPECT_THROW(report_html(report), std::logic_error);
+}
+
+TEST(Report, NamesAndCommandsKeepTheirUnderscores) {
+  Report report{"F_N over c_1", "fork of c_1", {}, "tread resume c_1"};
+  Table table{"", {{"Quantity"}, {.title = "Value", .plain = true}}, {}};
+  table.rows.push_back({"F_N", "tread run a.toml -o c_1"});
+  report.chapters = {{"Provenance", {table}}};
+  const std::string html = report_html(report);
+  for (const char* part :
+       {"<title>F_N over c_1</title>", "<h1>F<sub>N</sub> over", "<p>fork of c_1</p>",
+        "<td>F<sub>N</sub></td><td>tread run a.toml -o c_1</td>", "<footer>tread resume c_1</footer>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 }  // namespace

@@ -9,8 +9,11 @@
 
 #include "core/math/spectrum.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/report/energy_tables.hpp"
+#include "drivers/report/figure_parts.hpp"
 #include "drivers/report/measurement_figures.hpp"
 #include "drivers/report/report_figures.hpp"
+#include "drivers/report/surface_figures.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
@@ -150,6 +153,62 @@ TEST(ForceFigure, NamesTheCoefficientOfFriction) {
   results.samples = rolling(kForce, 0.0027);
   const std::string caption = force_figure(model, results).caption;
   EXPECT_NE(caption.find("f = 0.299."), std::string::npos) << caption;
+}
+
+TEST(ForceFigure, ShowsTheSurfaceThatThePatchMeets) {
+  const Model model(
+      samples::tyre_scene({"scene.element_size=12 mm", "surface.hole.kind=dent", "surface.hole.at=75 mm",
+                           "surface.hole.centre=15 mm", "surface.hole.depth=1 mm",
+                           "surface.hole.length=20 mm", "surface.hole.width=10 mm"}));
+  RunResults results;
+  results.samples = rolling(kForce, 0.0027);
+  results.preload.contact.centre.y = 0.015;
+  const Figure figure = force_figure(model, results);
+  ASSERT_EQ(figure.panels.size(), 2U);
+  const std::vector<double>& height = figure.panels.back().series.front().y;
+  EXPECT_NEAR(*std::min_element(height.begin(), height.end()), -1, 0.01);  // [mm]
+}
+
+TEST(FigureParts, FasteningsAreMarkedWhereTheyStand) {
+  Scene scene;
+  scene.rail.emplace();
+  scene.fastenings.emplace();
+  scene.supports["moved"] = {.fastening = 2, .shift = 0.1};
+  Figure figure;
+  mark_track(scene, Corrugation(), {-10, 30}, figure);
+  ASSERT_EQ(std::ssize(figure.positions), scene.fastenings->count);
+  EXPECT_NEAR(figure.positions[1].at - figure.positions[0].at, scene.fastenings->spacing + 0.1, 1e-12);
+  EXPECT_NEAR(figure.positions[2].at - figure.positions[1].at, scene.fastenings->spacing - 0.1, 1e-12);
+}
+
+TEST(PatchMovie, StatesTheMeanCreepage) {
+  const Model model(samples::tyre_scene({"scene.element_size=12 mm"}));
+  RunResults results;
+  results.samples.resize(1);
+  results.samples.front().creepage_node = 0.5;
+  results.samples.front().creepage_mean = 0.0025;
+  const std::size_t nodes = model.contact->nodes().grid().y.size();  // of one station
+  PatchSample sample;
+  sample.fields.resize(patch_fields().size() * nodes);
+  sample.state.resize(nodes);
+  results.movie = {sample};
+  const std::string note = patch_movie(model, results).frames.front().note;
+  EXPECT_NE(note.find("creepage 0.250 %"), std::string::npos) << note;
+}
+
+TEST(EnergyError, NamesTheLossesOfTheScene) {
+  const auto text = [](const Scene& scene) { return energy_error_text(Model(scene), RunResults()); };
+  const std::vector<std::string> coarse = {"scene.element_size=12 mm"};
+  const auto names = [](const std::string& sentence, const char* loss) {
+    return sentence.find(loss) != std::string::npos;
+  };
+  const std::string elastic = text(samples::tyre_scene(coarse));
+  EXPECT_FALSE(names(elastic, "losses in materials") || names(elastic, "plastic work")) << elastic;
+  const std::string damped = text(samples::tyre_with_maxwell_branches(coarse));
+  EXPECT_TRUE(names(damped, "losses in dampers, losses in materials and range")) << damped;
+  const std::string yielding = text(samples::tyre_scene(
+      {"scene.element_size=12 mm", "material.steel.law=j2", "material.steel.yield_stress=500 MPa"}));
+  EXPECT_TRUE(names(yielding, "losses in dampers, plastic work and range")) << yielding;
 }
 
 TEST(Warnings, NameTheDampingWhoseLossNoEnergyCounts) {

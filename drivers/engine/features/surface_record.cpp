@@ -30,7 +30,7 @@ void SurfaceRecord::apply(StepPhase /*phase*/, StepState& step) {
   surface_.add_sample(patch, static_cast<double>(step.sampling) * step.dt);
   surface_.add_stress(patch, *internal_, contact_->options().rail_block,
                       {step.displacement, step.lag, step.laws});
-  if (step.wheel.origin.x <= last_x_) line_.note_rolling(step.displacement, step.wheel.origin.x);
+  if (notes_deflection(step)) line_.note_rolling(step.displacement, step.wheel.origin.x);
 }
 
 void SurfaceRecord::watch(const StepState& step, WatchedNodes& nodes) const {
@@ -39,7 +39,7 @@ void SurfaceRecord::watch(const StepState& step, WatchedNodes& nodes) const {
     nodes.add_element(contact_->options().rail_block, surface_.grid().quad[static_cast<std::size_t>(row)],
                       station);
   });
-  if (step.wheel.origin.x <= last_x_)
+  if (notes_deflection(step))
     for (const std::int64_t slot : line_.slots()) nodes.add(slot);
 }
 

@@ -15,7 +15,7 @@ class SurfaceRecord final : public Feature {
   /// The part of the rail that is observed.
   struct Place {
     double patch_y;  ///< of the line whose deflection is noted [m]
-    double last_x;   ///< wheel's last place at which it is noted [m]
+    double last_x;   ///< wheel's last place at which it is noted, but for the first sample [m]
   };
   /// Keeps references.
   SurfaceRecord(Contact& contact, const InternalForce& internal, const SweptBlock& rail, const Place& place);
@@ -32,6 +32,11 @@ class SurfaceRecord final : public Feature {
   void settle(const StaticStart& start) override { line_.note_static(start.displacement); }
 
  private:
+  /// Returns true if a sample of this step notes the deflection.
+  bool notes_deflection(const StepState& step) const {
+    return step.steps == 0 || step.wheel.origin.x <= last_x_;
+  }
+
   const Contact* contact_;
   const InternalForce* internal_;
   SurfaceFields surface_;
