@@ -32,7 +32,9 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
       ->check(CLI::IsMember({"hertz", "half-space"}));
   command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
       ->check(CLI::Range(2, 3000));
-  command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");
+  command.add_option("--step", options.step,
+                     "time step, e.g. \"5 us\" (default: half the stable one, at most a fortieth of the "
+                     "shortest wave's passing)");
   command.add_flag("--filter", options.filter, "reduce the depth of a sine by the contact filter");
   command.add_option("--calibrate", options.calibrate,
                      "directory of a transient run; the contact spring is fitted to its F_N");

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "drivers/process/machine.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "io/text/json.hpp"
 #include "tests/program_test.hpp"
 
@@ -131,6 +132,35 @@ TEST_F(Develop, GoesOnWhereItWasStopped) {
 
   EXPECT_EQ(call(develop(folder_, 2, scene, "--set wear.change=0.02")), 2);
   EXPECT_TRUE(has(errors(), "another scene: wear.change is 0.02 here and 0.05 there")) << errors();
+}
+
+TEST_F(Develop, Passage0HasRoomForAllPassages) {
+  EXPECT_EQ(call(develop(folder_, 120, kCorrugation + kWear + "[stop]\nwall_time = \"1 ms\"\n")), 75);
+  const Scene smooth = read_scene(folder_ / "passage-0000/scene.resolved.toml");
+  EXPECT_GT(smooth.contact->depth_room.value(), 0.2e-3) << errors();
+}
+
+/// As where the development began with few passages, and its waves have grown.
+TEST_F(Develop, APassageDeeperThanTheRoomIsRefusedBeforeItRolls) {
+  fs::copy(root_ / "whole", folder_, fs::copy_options::recursive);
+  const fs::path kept = folder_ / "passage-0000/scene.resolved.toml";
+  std::string text = content_of(kept);
+  const std::size_t at = text.find("depth_room = ");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, text.find('\n', at) - at, "depth_room = \"0.001 mm\"");
+  std::ofstream(kept) << text;
+  EXPECT_EQ(call(develop(folder_, 3, kCorrugation + kWear)), 2);
+  EXPECT_TRUE(has(errors(), "passage 0 has room for 0.001 mm; begin in another folder")) << errors();
+  EXPECT_FALSE(fs::exists(folder_ / "passage-0003"));
+}
+
+/// A passage names the profile under it by its path.
+TEST_F(Develop, APassageOfAMovedFolderSaysWhatToRemove) {
+  fs::copy(root_ / "whole", folder_, fs::copy_options::recursive);
+  fs::remove(folder_ / "work/0002.csv");
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear)), 2);
+  EXPECT_TRUE(has(errors(), "passage-0002 holds another run")) << errors();
+  EXPECT_TRUE(has(errors(), "remove that folder, and this passage begins anew")) << errors();
 }
 
 TEST_F(Develop, BeginsWithTheStateOfAnotherRun) {

@@ -70,6 +70,9 @@ TEST_F(ExportCommand, WrongChoicesAreRefused) {
     EXPECT_TRUE(has(errors(), "lies between 0 and 1 mm")) << errors();
   }
   EXPECT_FALSE(fs::exists(root_ / "no.k"));
+  EXPECT_EQ(export_tyre("/dev/stdout", "--preload"), 2);
+  EXPECT_TRUE(has(errors(), "name a file, or state --for ls-dyna")) << errors();
+  EXPECT_EQ(output(), "");
 }
 
 }  // namespace

@@ -43,7 +43,18 @@ motion.traction.mu = [0.1, 0.3]
   int sweep(const fs::path& file, const std::string& more = "") const {
     return program_.call(fmt::format("sweep {} -o {} {}", file.string(), runs_.string(), more));
   }
+  /// Starts an element of a job array as Slurm does; its output goes to "log".
+  pid_t start_element(const fs::path& script, int number) const {
+    const std::string command =
+        fmt::format("PATH={0}/bin:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={1} exec bash {2} >{0}/log 2>&1",
+                    program_.folder.string(), number, script.string());
+    return samples::child([&] {
+      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    });
+  }
   std::string errors() const { return program_.errors(); }
+  std::string log() const { return content_of(program_.folder / "log"); }
   JsonRecord status() const { return read_json(runs_ / "status.json"); }
 
   samples::Program program_;
@@ -187,20 +198,10 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   fs::permissions(program_.write("bin/scontrol",
                                  "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "queued").string() + "\n"),
                   fs::perms::owner_all);
-  const auto start = [&](int number) {
-    const std::string command = fmt::format(
-        "PATH={}:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={} exec bash {} >{} 2>&1",
-        (program_.folder / "bin").string(), number, script.string(), (program_.folder / "log").string());
-    return samples::child([&] {
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(127);
-    });
-  };
-  const auto element = [&](int number) { return samples::wait_for(start(number)); };
-  const auto log = [&] { return content_of(program_.folder / "log"); };
+  const auto element = [&](int number) { return samples::wait_for(start_element(script, number)); };
   EXPECT_EQ(element(2), 2) << log();
   // Slurm's SIGTERM at the end of the time leaves a checkpoint, and the element is queued again.
-  const pid_t first = start(0);
+  const pid_t first = start_element(script, 0);
   ASSERT_TRUE(samples::wait_until([&] {
     return has(content_of(runs_ / "mu=0.1/status.json"), "\"rolling\"");
   })) << log();
@@ -213,7 +214,9 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   const auto written = fs::last_write_time(runs_ / "mu=0.1/summary.json");
   EXPECT_EQ(element(0), 0) << log();  // queued again by the system after its end
   EXPECT_EQ(fs::last_write_time(runs_ / "mu=0.1/summary.json"), written);
-  ASSERT_EQ(sweep(file), 0) << errors();
+  // The machine that collects the results lacks the cores, cards and launcher of those that ran.
+  for (const char* more : {"-t 1000", "--jobs 1000", "--jobs 2 --device gpu:0", "--launcher no-such-program"})
+    ASSERT_EQ(sweep(file, more), 0) << more << errors();
   EXPECT_EQ(number_in(status(), "done"), 2);
   EXPECT_EQ(sweep(file, "--slurm " + script.string()), 2);
   EXPECT_TRUE(has(errors(), "--slurm: no point is left to run")) << errors();
@@ -227,16 +230,8 @@ TEST_F(Sweep, JobArrayNotesFailures) {
   const fs::path script = program_.folder / "array.sh";
   ASSERT_EQ(sweep(file, "--slurm=" + script.string()), 0) << errors();
   EXPECT_TRUE(has(content_of(script), fmt::format("-o {}` collects", runs_.string()))) << content_of(script);
-  const auto element = [&](int number) {
-    const std::string command = fmt::format("SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={} exec bash {} >{} 2>&1",
-                                            number, script.string(), (program_.folder / "log").string());
-    return samples::wait_for(samples::child([&] {
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(127);
-    }));
-  };
-  EXPECT_EQ(element(0), 4) << content_of(program_.folder / "log");
-  EXPECT_EQ(element(1), 0) << content_of(program_.folder / "log");
+  EXPECT_EQ(samples::wait_for(start_element(script, 0)), 4) << log();
+  EXPECT_EQ(samples::wait_for(start_element(script, 1)), 0) << log();
   const JsonRecord failure = read_json(runs_ / "ends/failed.json");
   EXPECT_EQ(number_in(failure, "exit"), 4);
   EXPECT_EQ(truth_in(failure, "anew"), false);
@@ -248,7 +243,8 @@ TEST_F(Sweep, JobArrayNotesFailures) {
 
 TEST_F(Sweep, ListsCostWithoutRunning) {
   const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
-  EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json", file.string())), 0) << errors();
+  // A list needs no cores.
+  EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json -t 1000", file.string())), 0) << errors();
   const JsonRecord list = parse_json(program_.out(), "list");
   EXPECT_EQ(text_in(list, "points.1.name"), "velocity=2m_s");
   EXPECT_EQ(text_in(list, "points.1.state"), "waiting");

@@ -1,5 +1,6 @@
 // Measures of curves, front and names of settings of the dial.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,6 +101,28 @@ TEST(DialMeasures, AsFarAsBothCurvesGo) {
   EXPECT_FALSE(curve_difference(sampled(wave, 2, 2.6), reference, kStretch, kLongest));
   EXPECT_FALSE(curve_difference({}, reference, kStretch, kLongest));
   EXPECT_FALSE(curve_difference(reference, sampled([](double) { return 0.0; }), kStretch, kLongest));
+}
+
+/// A run over the smooth stretch with a static F_N of 90 kN, creepage and F_L of this mean [N].
+FinishedRun pulled(const samples::Program& program, double force) {
+  std::string text = "wheel_x [m],longitudinal_force [N],creepage_mean [-]\n";
+  for (double x = 2.4; x < 3; x += 0.01)
+    text += fmt::format("{},{},{}\n", x, force + 50 * std::sin(70 * x), 1e-8 * force);
+  FinishedRun run;
+  run.folder = program.write("histories.csv", text).parent_path();
+  run.scene.zone_start = kStretch.first;
+  run.scene.zone_length = kStretch.last - kStretch.first;
+  run.summary["static_wheel_load_N"] = 90e3;
+  return run;
+}
+
+TEST(DialMeasures, FLAndCreepageNeedTraction) {
+  const samples::Program program;
+  for (const double force : {100.0, 1000.0}) {
+    const FinishedRun run = pulled(program, force);
+    for (const std::size_t quantity : {1U, 2U})
+      EXPECT_EQ(run_difference(run, run, dial_quantities().at(quantity)).has_value(), force > 0.005 * 90e3);
+  }
 }
 
 /// One quantity's errors; cost in minutes and element-steps in opposite orders.

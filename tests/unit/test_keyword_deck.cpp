@@ -259,6 +259,10 @@ TEST(KeywordDeck, StatesTheHourglassStiffnessForTheReaderThatNeedsIt) {
   const ReadDeck deck = exported(model, {DeckReader::ls_dyna, 0}).deck;
   ASSERT_EQ(deck.hourglass.size(), 1U);
   EXPECT_EQ(deck.hourglass.at(1)[1], "6");
+  for (const std::size_t coefficient : {4U, 5U}) {  // of bulk viscosity: 0 would select the reader's own
+    EXPECT_GT(real(deck.hourglass.at(1)[coefficient]), 0);
+    EXPECT_LT(real(deck.hourglass.at(1)[coefficient]), 1e-6);
+  }
   for (const auto& [number, part] : deck.parts) EXPECT_EQ(part[4], "1");
 }
 

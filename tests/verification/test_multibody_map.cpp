@@ -219,5 +219,19 @@ TEST(ResponseMap, DotsAreTheRunsOwnExtremes) {
   EXPECT_EQ(map_dot(heavier, run).max, dot.max);
 }
 
+TEST(ResponseMap, DotsNameOtherSinesAndSurfaces) {
+  using Change = void (*)(Scene&);
+  for (const auto& [change, text] : std::initializer_list<std::pair<Change, const char*>>{
+           {[](Scene& scene) { scene.corrugation->width = 20e-3; }, "half width 20 mm, the map's is 30 mm"},
+           {[](Scene& scene) { scene.corrugation->centre = 15e-3; }, "centre 15.0 mm from the contact, "},
+           {[](Scene& scene) { scene.surfaces["weld"].at = 1; },
+            "the surfaces' depths differ by up to 1 mm"}}) {
+    TransientRun run = run_with(1);
+    change(run.scene);
+    const std::string remark = map_dot(model_of(300, 80), run).remark;
+    EXPECT_TRUE(remark.starts_with(text)) << remark;
+  }
+}
+
 }  // namespace
 }  // namespace tread

@@ -219,23 +219,28 @@ TEST(ModalTrack, RollsAlikeInItsOwnModes) {
   EXPECT_LT(worst, 0.01);
 }
 
-TEST(SineContact, AgreesWithFilterAndTracedWheel) {
-  MultibodyModel model = multibody_model(scene(kCorrugationD), BeamTheory::euler);
-  use_half_space_contact(model);
+/// Gain of the contact filter by the pressed sine, whose first trough is at x = 2.44 m [-].
+double gain_of_pressed_sine(const MultibodyModel& model) {
   const double s = std::pow(model.vehicle.load(), 2.0 / 3);
   const double rise = model.sine.at(0, 1).at(s);
   const double drop = model.sine.at(std::numbers::pi, 1).at(s);
-  const double depth = model.scene.corrugation->depth;
-  EXPECT_NEAR(1 + (drop - rise) / depth, contact_filter_gain(model, 0.08), 2e-3);
+  return 1 + (drop - rise) / model.roughness(2.44);
+}
+
+TEST(SineContact, AgreesWithFilterAndTracedWheel) {
+  MultibodyModel model = multibody_model(scene(kCorrugationD), BeamTheory::euler);
+  use_half_space_contact(model);
+  EXPECT_NEAR(gain_of_pressed_sine(model), contact_filter_gain(model, 0.08), 2e-3);
   // Without load a round wheel on a slope stands on a place before or behind.
   const double middle = model.sine.at(0.5 * std::numbers::pi, 1).at(0);
+  const double depth = model.scene.corrugation->depth;
   double traced = 0;
   for (double x = -0.01; x < 0.01; x += 1e-5)
     traced = std::min(traced, 0.5 * depth * std::sin(2 * std::numbers::pi * x / 0.08) +
                                   x * x / model.scene.wheel->diameter);
   EXPECT_NEAR(middle, traced, 0.03 * std::abs(traced) + 1e-7);
   // None on the smooth rail.
-  EXPECT_EQ(model.relief(model.corrugation.first() - 0.01).at(s), 0);
+  EXPECT_EQ(model.relief(model.corrugation.first() - 0.01).at(std::pow(model.vehicle.load(), 2.0 / 3)), 0);
   MultibodyModel smooth = multibody_model(scene(""), BeamTheory::euler);
   EXPECT_THROW(use_half_space_contact(smooth), InputError);
 }
@@ -251,6 +256,7 @@ TEST(SineContact, FollowsTheCorrugationsCentre) {
   const MultibodyModel beside = with_centre(60);
   EXPECT_EQ(beside.roughness(2.44), 0);
   EXPECT_EQ(beside.relief(2.44).at(std::pow(beside.vehicle.load(), 2.0 / 3)), 0);
+  EXPECT_EQ(contact_filter_gain(beside, 0.08), 1);
   // Without load the wheel in a trough stands where the slopes across of wheel and rail are the same.
   const MultibodyModel aside = with_centre(15);
   const CorrugationSpec& sine = *aside.scene.corrugation;
@@ -258,6 +264,27 @@ TEST(SineContact, FollowsTheCorrugationsCentre) {
   const double slope = bend * (aside.corrugation.centre() - aside.contact_y);
   const double rise = 0.5 * slope * slope / (1 / aside.radius_y - bend);
   EXPECT_NEAR(aside.relief(2.44).at(0), -rise, 0.02 * rise);
+  // On a slope across, the filter takes 9 % of the depth; in the middle of the waves it takes 5.5 %.
+  const double gain = contact_filter_gain(aside, 0.08);
+  measured("gain 15 mm beside the middle", gain);
+  EXPECT_LT(gain, 0.92);
+  EXPECT_NEAR(gain_of_pressed_sine(aside), gain, 5e-3);
+}
+
+TEST(SineContact, BridgesATroughMoreCurvedAcrossThanTheWheel) {
+  const auto narrow = [](double width_mm, double depth_mm) {
+    return multibody_model(
+        scene(fmt::format("[corrugation]\nwavelength = \"80 mm\"\nwidth = \"{} mm\"\ndepth = \"{} mm\"\n",
+                          width_mm, depth_mm)),
+        BeamTheory::euler);
+  };
+  MultibodyModel shallow = narrow(6, 0.05);
+  use_half_space_contact(shallow);
+  EXPECT_NEAR(gain_of_pressed_sine(shallow), contact_filter_gain(shallow, 0.08), 0.02);
+  // The wheel stands on both edges of a deep trough.
+  const MultibodyModel deep = narrow(12, 0.5);
+  const double sagitta = 0.5 * std::pow(0.012, 2) / deep.radius_y;
+  EXPECT_NEAR(contact_filter_gain(deep, 0.08), sagitta / 0.5e-3, 0.03);
 }
 
 }  // namespace

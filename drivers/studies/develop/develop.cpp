@@ -41,7 +41,7 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
   if (options.from.empty() && !std::filesystem::exists(options.output / kKeptScene))
-    require_way_to_zone(resolved);
+    require_way_to_zone(resolved, options.passages);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");

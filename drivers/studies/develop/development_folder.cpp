@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -51,9 +52,12 @@ std::string fork_table(const Scene& scene) {
   return "\n[forks]\n" + (stated ? fmt::format("at = \"{} s\"\n", *scene.forks->at) : "");
 }
 
-/// Room for waves that grow in passage 0 [m].
-double growing_room(const Scene& scene) {
-  return std::max(forks_room(scene), 2 * corrugation_depth(scene));
+/// Room in passage 0 for waves that grow by the largest change in each of the passages, at least to twice
+/// their depth [m].
+double growing_room(const Scene& scene, int passages) {
+  const double growth = std::max(2.0, std::pow(1 + scene.wear->change, passages));
+  const double most = find_key("contact.depth_room")->range.high;
+  return std::max(forks_room(scene), std::min(growth * corrugation_depth(scene), most));
 }
 
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
@@ -149,11 +153,23 @@ std::vector<WorkRow> read_rows(const fs::path& path) {
   return rows;
 }
 
+/// Throws InputError where the corrugation of the passage in `folder` is deeper than `room`, for which
+/// passage 0 has searched the surface [m].
+void require_room(const fs::path& folder, const Scene& passage, double room, int passages) {
+  const double deepest = corrugation_depth(passage);
+  if (deepest <= room) return;
+  throw InputError(
+      fmt::format("the corrugation of {} is {:.4g} mm deep, but passage 0 has room for {:.4g} mm; begin in "
+                  "another folder with -o, where passage 0 leaves room for all {} passages",
+                  folder.string(), 1e3 * deepest, 1e3 * room, passages));
+}
+
 Error failure(const fs::path& folder, const PointStatus& status) {
   if (status.foreign)
     return InputError(
         fmt::format("{} holds another run than this passage (here: the passage, there: the "
-                    "folder): {}; choose another folder with -o",
+                    "folder): {}; remove that folder, and this passage begins anew while the others stay; or "
+                    "choose another folder with -o",
                     folder.string(), status.why));
   if (status.state == PointState::failed)
     return Error(status.code, fmt::format("the passage in {} failed: {}", folder.string(), status.why));
@@ -201,7 +217,8 @@ std::vector<std::string> DevelopmentFolder::overrides(int number, const Developm
   if (number == 0) {
     // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
     // run with whose state they begin.
-    if (options_.from.empty()) list.push_back(fmt::format("contact.depth_room={} m", growing_room(scene_)));
+    if (options_.from.empty())
+      list.push_back(fmt::format("contact.depth_room={} m", growing_room(scene_, options_.passages)));
     return list;
   }
   const CorrugationSpec& spec = *scene_.corrugation;
@@ -233,6 +250,9 @@ void DevelopmentFolder::roll(int number, const Development* before, Progress& pr
   point.from = number > 0 && options_.from.empty() ? run_path(0).string() : options_.from;
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign) throw failure(point.folder, point.status);
+  if (number > 0 && options_.from.empty())
+    require_room(point.folder, point.resolved.scene, depth_room(kept_scene(run_path(0)).resolved.scene),
+                 options_.passages);
   plan.points.push_back(std::move(point));
   const StudyLabel label{"develop", number, options_.passages - number};
   const std::string stopped_by = StudyRunner(plan, folder_, progress, label).run(true);
@@ -295,12 +315,12 @@ SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
   return result;
 }
 
-void require_way_to_zone(const ResolvedScene& resolved) {
+void require_way_to_zone(const ResolvedScene& resolved, int passages) {
   constexpr double kFar = 0.3;  // beyond the reach of any patch [m]
   Scene smooth = resolved.scene;
   if (smooth.forks && smooth.forks->at) return;
   if (smooth.zone_start - smooth.start_x() > kFar) return;
-  smooth.contact->depth_room = growing_room(smooth);
+  smooth.contact->depth_room = growing_room(smooth, passages);
   smooth.corrugation.reset();
   smooth.wear.reset();
   smooth.forks.emplace();

@@ -89,7 +89,9 @@ std::string advice_text(const Advice& advice) {
       text += fmt::format("; the nearest, {}, is {} off", advice.nearest->point,
                           percent_text(error_of(*advice.nearest, advice.quantity).value_or(0)));
     else
-      text += "; its runs have no error of that quantity: do they reach the stretch that is evaluated?";
+      text +=
+          "; its runs have no error of that quantity: do they reach the stretch that is evaluated, under "
+          "traction?";
     return text + "\n" + measured_text(advice);
   }
   text += fmt::format("{}, which was {} off\n", advice.row->point,

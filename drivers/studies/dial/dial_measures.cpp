@@ -70,13 +70,27 @@ RunCurve along_axis(const char* name, const char* unit) {
   return {.file = "surface_axis.csv", .x = {"x", "m"}, .y = {name, unit}};
 }
 
+RunCurve longitudinal_force() {
+  return {.y = {"longitudinal_force", "N"}};
+}
+
+/// Returns true if F_L over the evaluated stretch is small against the static F_N. [theory.md, eq. 13a]
+bool rolls_freely(const FinishedRun& run) {
+  constexpr double kSmall = 0.005;  // F_L / F_N
+  const CurvePoints force = read_curve(run, longitudinal_force());
+  const Span known = with_room(evaluated_stretch(run.scene, run.corrugation()), force, 0);
+  if (known.empty()) return false;
+  const double level = quadratic_mean(statistics(values_on(force, known, 0)));
+  return level < kSmall * run.number("static_wheel_load_N").value_or(0);
+}
+
 }  // namespace
 
 const std::vector<DialQuantity>& dial_quantities() {
   static const std::vector<DialQuantity> quantities = {
       {"F_N", "F_N", {.y = {"vertical_force", "N"}}},
-      {"F_L", "F_L", {.y = {"longitudinal_force", "N"}}},
-      {"creepage", "creepage", {.y = {"creepage_mean", "-"}}},
+      {"F_L", "F_L", longitudinal_force(), true},
+      {"creepage", "creepage", {.y = {"creepage_mean", "-"}}, true},
       {"pressure", "pressure", {.y = {"max_pressure", "Pa"}}},
       {"shear", "shear", {.y = {"max_shear", "Pa"}}},
       {"von_mises", "Von Mises", along_axis("max_von_mises", "Pa")},
@@ -107,6 +121,7 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
 
 std::optional<CurveDifference> run_difference(const FinishedRun& run, const FinishedRun& reference,
                                               const DialQuantity& quantity) {
+  if (quantity.of_traction && rolls_freely(reference)) return std::nullopt;
   const Scene& scene = reference.scene;
   const bool sine = scene.corrugation && scene.corrugation->kind == "sine";
   const CurvePoints wanted = read_curve(reference, quantity.curve);

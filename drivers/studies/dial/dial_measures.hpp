@@ -15,6 +15,7 @@ struct DialQuantity {
   std::string name;   ///< in options and files, "F_N", "von_mises"
   std::string title;  ///< for readers
   RunCurve curve;
+  bool of_traction = false;  ///< noise where the wheel rolls without traction
 };
 
 /// F_N, F_L, creepage, largest pressure and shear over the wheel's way; Von Mises stress and frictional work
@@ -38,8 +39,9 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
                                                 const Span& stretch, double longest_shift);
 
 /// In this quantity, over the stretch on which the reference is evaluated; the longest shift is a quarter of
-/// its corrugation's wave; on other rails 20 mm, or a tenth of the way if that is less. Nothing as above or
-/// where a run has no such curve.
+/// its corrugation's wave; on other rails 20 mm, or a tenth of the way if that is less. Nothing as above,
+/// where a run has no such curve, or of F_L and creepage where the reference's F_L is below 0.005 of its
+/// static F_N.
 std::optional<CurveDifference> run_difference(const FinishedRun& run, const FinishedRun& reference,
                                               const DialQuantity& quantity);
 

@@ -96,10 +96,10 @@ class DeckBodies {
     out_.names({"secid", "elform"});
     out_.card({section_, 1});
     if (deck_.options().reader == DeckReader::openradioss) return;
-    out_.remark("Assumed strain, co-rotational, with the full elastic stiffness.");
+    out_.remark("Assumed strain, co-rotational, with the full elastic stiffness; no bulk viscosity.");
     out_.keyword("*HOURGLASS");
-    out_.names({"hgid", "ihq", "qm"});
-    out_.card({kHourglass, 6, 1.0});
+    out_.names({"hgid", "ihq", "qm", "ibq", "q1", "q2"});
+    out_.card({kHourglass, 6, 1.0, 0, kNoViscosity, kNoViscosity});
   }
 
   void write_parts() {
@@ -146,6 +146,7 @@ class DeckBodies {
   }
 
   static constexpr std::int64_t kHourglass = 1;
+  static constexpr double kNoViscosity = 1e-12;  // 0 would select the reader's 1.5 and 0.06
 
   DeckModel& deck_;
   KeywordDeck& out_;

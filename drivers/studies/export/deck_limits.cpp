@@ -93,7 +93,7 @@ class Differences {
               "physical hourglass stiffness is the nearest; types 1 to 5 would select another. Its bulk "
               "viscosity (0.05 and 1.1) stays."
             : "Element: one stress point with the hourglass stiffness of type 6, QM = 1 (Belytschko and "
-              "Bindeman), the nearest.");
+              "Bindeman), the nearest. Tiny Q1 and Q2 switch its bulk viscosity off, as here.");
     const bool held = std::any_of(model_.mesh.blocks.begin(), model_.mesh.blocks.end(),
                                   [](const SweptBlock& block) { return block.vertical_only; });
     if (held) add("Slab: held along and across at every node, as here.");

@@ -93,6 +93,15 @@ DeckOptions deck_options(const ExportOptions& options) {
   return deck;
 }
 
+/// Throws InputError where the files of a preloaded deck for OpenRadioss cannot lie beside the deck.
+void require_place_for_files(const DeckOptions& deck, const std::filesystem::path& output) {
+  if (!deck.radioss_cards() || has_neighbours(output)) return;
+  throw InputError(
+      fmt::format("-o {} takes one file, and --preload for OpenRadioss writes three; name a file, or state "
+                  "--for ls-dyna",
+                  output.string()));
+}
+
 Json summary_json(const DeckSummary& summary, const ExportOptions& options) {
   return {
       {"file", options.output.string()},
@@ -154,6 +163,7 @@ void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
   std::optional<Preload> preload;
   if (options.preload) {
     deck_choice.preload = &preload.emplace();
+    require_place_for_files(deck_choice, options.output);
     require_deck_can_hold(model, deck_choice);
     const Progress progress(options.quiet);
     *preload = preload_and_corrugate(resolved, model,
@@ -168,7 +178,6 @@ void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
     summary = write_keyword_deck(model, deck_choice, options.program, deck);
     file.close();
   });
-  if (!has_neighbours(options.output)) summary.radioss.velocities.clear();  // no files beside it
   if (!summary.radioss.velocities.empty()) write_radioss_files(options.output, scene, summary);
   if (options.json)
     fmt::print("{}", json_text(summary_json(summary, options)));

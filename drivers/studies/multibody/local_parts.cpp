@@ -25,10 +25,8 @@ void use_modal_wheel(MultibodyModel& model) {
 
 void use_half_space_contact(MultibodyModel& model) {
   require_sine(model, "tread multibody --contact half-space: the wheel is pressed on a sine");
-  const CorrugationSpec& sine = *model.scene.corrugation;
-  model.sine = SineContact({0.5 * model.scene.wheel->diameter, model.radius_y, sine.depth, sine.wavelength,
-                            sine.width, model.corrugation.centre() - model.contact_y},
-                           model.scene.elastic_pair(), kMostLoad * model.vehicle.load());
+  model.sine =
+      SineContact(sine_under_wheel(model), model.scene.elastic_pair(), kMostLoad * model.vehicle.load());
 }
 
 }  // namespace tread

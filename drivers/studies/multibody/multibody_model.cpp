@@ -169,31 +169,23 @@ Corrugation with_wavelength(const MultibodyModel& model, double wavelength) {
   return corrugation_of(spec, spec.centre.value_or(model.contact_y));
 }
 
-double contact_filter_gain(const MultibodyModel& model, double wavelength) {
-  using namespace half_space;
-  const HertzPatch& patch = model.patch;
+SineUnderWheel sine_under_wheel(const MultibodyModel& model) {
   const CorrugationSpec& spec = *model.scene.corrugation;
-  const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 8;
-  // The wheel bridges a trough that is more curved than the wheel, at most from crest to crest.
-  const double curvature = 0.5 * spec.depth * std::pow(2 * std::numbers::pi / wavelength, 2);
-  const bool bridged = curvature * 0.5 * model.scene.wheel->diameter > 0.5;
-  const double half_length =
-      std::max(2.0 * patch.semi_axis_x, bridged ? 0.5 * wavelength + patch.semi_axis_x : 0.0);
-  const Influence influence(centred_grid(half_length, 2 * patch.semi_axis_y, cell),
-                            model.scene.elastic_pair().alike());
-  const Gap smooth = quadratic_gap(0.5 * model.scene.wheel->diameter, model.radius_y);
+  const double radius = 0.5 * model.scene.wheel->diameter;
+  const double centre = model.corrugation.centre() - model.contact_y;
+  return {radius, model.radius_y, spec.depth, spec.wavelength, spec.width, centre};
+}
+
+double contact_filter_gain(const MultibodyModel& model, double wavelength) {
+  SineUnderWheel sine = sine_under_wheel(model);
+  sine.wavelength = wavelength;
+  const double depth = sine.depth_at(0, 0, std::numbers::pi);
+  if (depth <= 0) return 1;
+  const half_space::Influence influence(sine.grid(model.patch), model.scene.elastic_pair().alike());
   const auto approach = [&](double phase) {
-    return press(
-               influence,
-               [&](double x, double y) {
-                 const double across = std::max(0.0, 1 - y * y / (spec.width * spec.width));
-                 return smooth(x, y) + 0.5 * spec.depth * across *
-                                           (1 - std::cos(2 * std::numbers::pi * x / wavelength + phase));
-               },
-               model.vehicle.load())
-        .approach;
+    return half_space::press(influence, sine.gap(phase), model.vehicle.load()).approach;
   };
-  return (approach(std::numbers::pi) - approach(0)) / spec.depth;
+  return (approach(std::numbers::pi) - approach(0)) / depth;
 }
 
 void require_sine(const MultibodyModel& model, const std::string& reason) {

@@ -70,9 +70,12 @@ Corrugation stated_corrugation(const MultibodyModel& model);
 /// The model's corrugation with another wavelength [m]. Throws InputError without a sine.
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength);
 
-/// Gain of the contact filter [-]: share of a sine's depth that the height of a wheel at rest shows, crest
-/// against trough. The wheel rests on a half-space at the scene's depth and under the static load. [Kalker,
-/// ch. 4, by kernels/half_space/half_space]
+/// The scene's sine as the wheel meets it.
+SineUnderWheel sine_under_wheel(const MultibodyModel& model);
+
+/// Gain of the contact filter [-]: height of a wheel at rest on a crest above one in a trough, over the
+/// sine's depth at the contact; 1 where the sine lies beside the contact. The wheel rests on a half-space at
+/// the scene's depth and under the static load. [Kalker, ch. 4, by kernels/half_space/half_space]
 double contact_filter_gain(const MultibodyModel& model, double wavelength);
 
 /// Throws InputError, which begins with `reason`, unless the corrugation is a sine.

@@ -70,6 +70,25 @@ void require_sine(const Scene& scene, const std::string& where) {
     throw InputError(where + ": the scene needs a [corrugation] with kind = \"sine\"");
 }
 
+/// First difference of a run's sine from the map's, but for the wavelength; empty if there is none.
+std::string sine_difference(const MultibodyModel& map, const MultibodyModel& run) {
+  const SineUnderWheel ours = sine_under_wheel(map);
+  const SineUnderWheel theirs = sine_under_wheel(run);
+  if (std::abs(theirs.depth - ours.depth) > 1e-3 * ours.depth)
+    return fmt::format("depth {:.3g} mm, the map's is {:.3g} mm", 1e3 * theirs.depth, 1e3 * ours.depth);
+  const double our_start = map.scene.corrugation->start;
+  const double their_start = run.scene.corrugation->start;
+  if (std::abs(their_start - our_start) > 1e-6)
+    return fmt::format("starts at {:.3f} m, the map's corrugation at {:.3f} m", their_start, our_start);
+  if (std::abs(theirs.width - ours.width) > 1e-3 * ours.width)
+    return fmt::format("half width {:.3g} mm, the map's is {:.3g} mm", 1e3 * theirs.width, 1e3 * ours.width);
+  // The mesh slightly affects the contact's place.
+  if (std::abs(theirs.centre - ours.centre) > 1e-2 * ours.width)
+    return fmt::format("centre {:.1f} mm from the contact, the map's {:.1f} mm", 1e3 * theirs.centre,
+                       1e3 * ours.centre);
+  return "";
+}
+
 }  // namespace
 
 MapAxes parse_map_axes(const std::vector<std::string>& texts) {
@@ -157,15 +176,11 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   const MultibodyModel theirs = multibody_model(run.scene, model.theory);
   dot.max = extremes.max / theirs.vehicle.load();
   dot.min = extremes.min / theirs.vehicle.load();
-  const CorrugationSpec& ours = *model.scene.corrugation;
-  if (std::abs(spec.depth - ours.depth) > 1e-3 * ours.depth)
-    dot.remark = fmt::format("depth {:.3g} mm, the map's is {:.3g} mm", 1e3 * spec.depth, 1e3 * ours.depth);
-  else if (std::abs(spec.start - ours.start) > 1e-6)
-    dot.remark = fmt::format("starts at {:.3f} m, the map's corrugation at {:.3f} m", spec.start, ours.start);
-  else if (run.x.back() < stretch.last)
+  dot.remark = sine_difference(model, theirs);
+  if (dot.remark.empty() && run.x.back() < stretch.last)
     dot.remark = fmt::format("ends at x = {:.3f} m", run.x.back());
-  else
-    dot.remark = track_difference(model, theirs);
+  if (dot.remark.empty()) dot.remark = track_difference(model, theirs);
+  if (dot.remark.empty()) dot.remark = surface_difference(model, theirs);
   return dot;
 }
 

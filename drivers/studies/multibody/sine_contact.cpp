@@ -5,18 +5,45 @@
 #include <numbers>
 #include <utility>
 
-#include "core/math/hertz.hpp"
-#include "kernels/half_space/half_space.hpp"
-
 namespace tread {
 
 namespace {
 
 constexpr int kPhases = 5;    ///< from crest to trough
 constexpr double kCells = 8;  ///< over the shorter semi-axis
-constexpr double kReach = 2;  ///< half length of the grid over the semi-axis
+
+/// Distance from the contact [m] up to which a patch of this semi-axis [m] may reach. On a slope a wheel of
+/// this radius [m] touches where it is as steep, twice as far away in a trough half as curved [1/m]; more
+/// curved troughs are bridged, at most from edge to edge.
+double reach_of(double semi_axis, double radius, double curvature, double slope, double edge) {
+  const double touching = curvature * radius > 0.5 ? edge : 2 * slope * radius;
+  return std::max(2 * semi_axis, 1.5 * semi_axis + touching);
+}
 
 }  // namespace
+
+double SineUnderWheel::depth_at(double x, double y, double phase) const {
+  const double aside = y - centre;
+  const double across = std::max(0.0, 1 - aside * aside / (width * width));
+  return 0.5 * depth * across * (1 - std::cos(2 * std::numbers::pi * x / wavelength + phase));
+}
+
+half_space::Gap SineUnderWheel::gap(double phase) const {
+  return [sine = *this, smooth = half_space::quadratic_gap(radius, radius_y), phase](double x, double y) {
+    return smooth(x, y) + sine.depth_at(x, y, phase);
+  };
+}
+
+half_space::Grid SineUnderWheel::grid(const HertzPatch& patch) const {
+  const double wave_number = 2 * std::numbers::pi / wavelength;
+  const double slope = 0.5 * depth * wave_number;
+  const double bend = 2 * depth / (width * width);
+  const double tilt = bend * std::min(std::abs(centre), width);
+  return half_space::centred_grid(
+      reach_of(patch.semi_axis_x, radius, slope * wave_number, slope, 0.5 * wavelength),
+      reach_of(patch.semi_axis_y, radius_y, bend, tilt, width),
+      std::min(patch.semi_axis_x, patch.semi_axis_y) / kCells);
+}
 
 std::pair<double, double> ContactRelief::value(double s) const {
   const int i = std::clamp(static_cast<int>(s / pitch), 0, kLoads - 2);
@@ -29,36 +56,18 @@ SineContact::SineContact(const SineUnderWheel& sine, const ElasticPair& pair, do
   using namespace half_space;
   const double pitch = std::pow(most, 2.0 / 3) / (ContactRelief::kLoads - 1);
   const Gap smooth = quadratic_gap(sine.radius, sine.radius_y);
-  const auto depth = [&](double x, double y, double phase) {
-    const double aside = y - sine.centre;
-    const double across = std::max(0.0, 1 - aside * aside / (sine.width * sine.width));
-    return 0.5 * sine.depth * across * (1 - std::cos(2 * std::numbers::pi * x / sine.wavelength + phase));
-  };
   harmonic_.assign(kPhases, {});
   for (ContactRelief& relief : harmonic_) relief.pitch = pitch;
   const auto angle = [](int phase) { return std::numbers::pi * phase / (kPhases - 1); };
   for (std::size_t load = 1; load < ContactRelief::kLoads; ++load) {
     const double force = std::pow(static_cast<double>(load) * pitch, 1.5);
     const HertzPatch patch = hertz(sine.radius, sine.radius_y, pair.contact_modulus(), force);
-    const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / kCells;
-    // The wheel touches a slope ahead, behind or aside, in a trough more curved than the wheel anywhere.
-    const double curvature = 0.5 * sine.depth * std::pow(2 * std::numbers::pi / sine.wavelength, 2);
-    const double slope = 0.5 * sine.depth * 2 * std::numbers::pi / sine.wavelength;
-    const bool bridged = curvature * sine.radius > 0.5;
-    const double half =
-        std::max(kReach * patch.semi_axis_x, 1.5 * patch.semi_axis_x + 2 * slope * sine.radius) +
-        (bridged ? 0.5 * sine.wavelength : 0.0);
-    const double tilt = 2 * sine.depth / sine.width * std::min(std::abs(sine.centre) / sine.width, 1.0);
-    const double half_across =
-        std::max(kReach * patch.semi_axis_y, 1.5 * patch.semi_axis_y + 2 * tilt * sine.radius_y);
-    const Influence influence(centred_grid(half, half_across, cell), pair.alike());
+    const Influence influence(sine.grid(patch), pair.alike());
     const double on_smooth = press(influence, smooth, force).approach;
     std::array<double, kPhases> beyond{};
-    for (int i = 0; i < kPhases; ++i) {
-      const Gap gap = [&](double x, double y) { return smooth(x, y) + depth(x, y, angle(i)); };
+    for (int i = 0; i < kPhases; ++i)
       beyond[static_cast<std::size_t>(i)] =
-          press(influence, gap, force).approach - on_smooth - depth(0, 0, angle(i));
-    }
+          press(influence, sine.gap(angle(i)), force).approach - on_smooth - sine.depth_at(0, 0, angle(i));
     // The cosine series through the phases, which are even about crest and trough.
     for (int m = 0; m < kPhases; ++m) {
       double sum = 0;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/math/elastic_pair.hpp"
+#include "core/math/hertz.hpp"
+#include "kernels/half_space/half_space.hpp"
 
 namespace tread {
 
@@ -29,6 +31,13 @@ struct SineUnderWheel {
   double wavelength = 0;  ///< [m]
   double width = 0;       ///< half the width over which the depth falls to 0 as a parabola [m]
   double centre = 0;      ///< of the parabola, across from the contact [m]
+
+  /// Depth at x, y from the contact [m], which lies at a phase beyond a crest [rad].
+  double depth_at(double x, double y, double phase) const;
+  /// Gap of the wheel that touches the smooth rail, `phase` as in depth_at().
+  half_space::Gap gap(double phase) const;
+  /// Grid that holds the contact at all phases under the load of a patch on the smooth rail.
+  half_space::Grid grid(const HertzPatch& patch) const;
 };
 
 /// Reliefs of all phases of a sine.

@@ -42,15 +42,9 @@ bool program_exists(const std::string& name) {
   return false;
 }
 
-/// The words of --launcher. The first one must be a program here, unless a job array is to call it.
-std::vector<std::string> launcher_words(const StudyOptions& options) {
-  std::istringstream stream(options.launcher);
-  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
-  if (words.empty() || !options.slurm.empty()) return words;
-  if (!program_exists(words.front()))
-    throw InputError(fmt::format(
-        "--launcher: there is no program '{}' in PATH; install it, or state its path", words.front()));
-  return words;
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 /// Cards that runs with this device share; 0: they need none.
@@ -67,7 +61,7 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
   plan.device = options.device;
-  plan.launcher = launcher_words(options);
+  plan.launcher = words_of(options.launcher);
   plan.elsewhere = options.slurm.empty() ? fmt::format("{}", fmt::join(plan.launcher, " ")) : "Slurm";
   int jobs = stated(options.jobs, plan.study.jobs);
   if (!plan.elsewhere.empty()) {
@@ -76,14 +70,29 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   }
   const int each = std::max(1, plan.threads);
   plan.cards = cards_of(plan.device);
-  if (plan.cards > 0) {
-    if (options.jobs > plan.cards)
-      throw InputError(fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
-                                   options.jobs, plan.device,
-                                   plan.cards == 1 ? "is one" : fmt::format("are {}", plan.cards)));
+  if (plan.cards > 0)
     jobs = jobs > 0 ? std::min(jobs, plan.cards) : std::min(plan.cards, std::max(1, cores / each));
-  }
   plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
+}
+
+/// Throws InputError unless this machine has the launcher, cards and cores that the runs need. A list, a job
+/// array and a study that has nothing to run need none.
+void require_machine(const StudyPlan& plan, const StudyOptions& options) {
+  const auto to_run = [&](const PlannedPoint& point) { return point.to_run(options.retry); };
+  if (options.list || !options.slurm.empty() || std::ranges::none_of(plan.points, to_run)) return;
+  if (!plan.launcher.empty()) {
+    if (!program_exists(plan.launcher.front()))
+      throw InputError(
+          fmt::format("--launcher: there is no program '{}' in PATH; install it, or state its path",
+                      plan.launcher.front()));
+    return;
+  }
+  if (plan.cards > 0 && options.jobs > plan.cards)
+    throw InputError(fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
+                                 options.jobs, plan.device,
+                                 plan.cards == 1 ? "is one" : fmt::format("are {}", plan.cards)));
+  const int cores = machine_cores();
+  const int each = std::max(1, plan.threads);
   if (plan.jobs * each > cores)
     throw InputError(
         fmt::format("{} runs at once with {} threads each need {} cores, this machine has {}: lower --jobs "
@@ -232,6 +241,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
     folder.emplace(plan.folder);
   }
   if (!options.output.empty()) look_into_folders(plan);
+  require_machine(plan, options);
   project_cost(plan, options.retry);
   mind_memory(plan, options);
   const StudyCost cost = total_cost(plan);

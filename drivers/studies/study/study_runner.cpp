@@ -15,6 +15,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -120,11 +121,12 @@ PlannedPoint* StudyRunner::take_next() {
 
 /// The first card on which no run is; -1 where the plan names one, or none.
 int StudyRunner::free_card() const {
-  int card = plan_->cards > 1 ? 0 : -1;
-  while (card >= 0 && std::any_of(running_.begin(), running_.end(),
-                                  [card](const Running& running) { return running.card == card; }))
-    ++card;
-  return card;
+  if (plan_->cards <= 1) return -1;
+  const std::vector<int> cards = gpu_numbers();
+  return *std::find_if(cards.begin(), cards.end(), [this](int card) {
+    return std::none_of(running_.begin(), running_.end(),
+                        [card](const Running& running) { return running.card == card; });
+  });
 }
 
 void StudyRunner::start(PlannedPoint& point, int threads) {
