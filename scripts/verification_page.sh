@@ -60,7 +60,7 @@ order=$(printf '%s\n' "${runs[@]%% *}" | awk '!seen[$0]++')
 for case in $order; do
   printf '### %s\n\n' "$case"
   for page in "$pages/$case".md "$pages/$case"-*.md; do
-    [[ -f $page ]] && sed 's#](#](verification/#' "$page"
+    [[ -f $page ]] && sed 's#](#](verification/#g' "$page"
   done
   printf '\n'
 done | "$root/scripts/put_between_marks.sh" "$document" 'tread verify'

@@ -120,7 +120,7 @@ std::vector<PhaseInfo> Measurements::phases() const {
 std::vector<FieldBytes> Measurements::fields() const {
   if (channels_.empty()) return {};
   const auto values = static_cast<std::int64_t>(channels_.size() * sizeof(double));
-  return {{RunField::samples, sample_count(model_->scene) * values}};
+  return {{RunField::samples, sample_count(*model_) * values}};
 }
 
 void Measurements::apply(StepPhase /*phase*/, StepState& step) {

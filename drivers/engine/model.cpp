@@ -27,7 +27,7 @@ namespace tread {
 
 namespace {
 
-/// A wheel without load has no Hertz patch; this load then sets the penalty's scale [N].
+/// Sets the scale of penalty and first overlap where the wheel has hardly any load [N].
 constexpr double kLeastLoad = 100;
 
 /// Friction law of the scene. A table's law refers to the spec's arrays.
@@ -291,10 +291,14 @@ double Model::line_semi_axis() const {
   return tread::line_semi_axis(wheel_radius(), scene.elastic_pair().contact_modulus(), line_load());
 }
 
+HertzPatch Model::scale_patch() const {
+  return hertz(wheel_radius(), hertz_radius_y, scene.elastic_pair().contact_modulus(),
+               std::max(wheel_load(), kLeastLoad));
+}
+
 double Model::penalty_stiffness(const ContactSpec& spec) const {
-  const HertzPatch loaded = hertz(wheel_radius(), hertz_radius_y, scene.elastic_pair().contact_modulus(),
-                                  std::max(wheel_load(), kLeastLoad));
-  const double unit_ratio = loaded.max_pressure / loaded.approach;
+  const HertzPatch scale = scale_patch();
+  const double unit_ratio = scale.max_pressure / scale.approach;
   // A softer penalty widens the patch; under a stiffer one the points of a face share its load unevenly.
   // [limits.md, Penalty]
   constexpr double kPerElement = 10;

@@ -74,6 +74,8 @@ struct Model {
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
   double line_width = 0;      ///< of a line contact, for which hertz_patch is too long [m]; otherwise 0
 
+  /// hertz_patch where the wheel has a load of 100 N or more; of 100 N where it has less, or none.
+  HertzPatch scale_patch() const;
   bool has_branches() const;
   double wheel_load() const;                                      ///< static vertical contact force [N]
   double line_load() const { return wheel_load() / line_width; }  ///< of a line contact [N/m]

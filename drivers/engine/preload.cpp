@@ -308,7 +308,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   if (model.contact) {
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
     // other.
-    const double overlap = 0.6 * model.hertz_patch.approach;
+    const double overlap = 0.6 * model.scale_patch().approach;
     const Corrugation& corrugation = model.contact->corrugation();
     const double depth = corrugation.depth(out.wheel.origin.x, corrugation.centre()) +
                          model.contact->touching_depth(out.wheel.origin.x);

@@ -1,12 +1,21 @@
 #include "drivers/engine/sampling.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tread {
 
-std::int64_t sample_count(const Scene& scene) {
+std::int64_t sample_count(const Model& model) {
+  const Scene& scene = model.scene;
   if (!scene.motion) return 0;
-  return static_cast<std::int64_t>(std::ceil(scene.motion->duration / scene.output.history_interval)) + 1;
+  double fastest = 0;  // wave [m/s]
+  for (const auto& [name, material] : scene.materials)
+    fastest = std::max(fastest,
+                       std::sqrt((material.lame_lambda() + 2 * material.shear_modulus()) / material.density));
+  const double step = model.sizes.contact / fastest;
+  return static_cast<std::int64_t>(
+             std::ceil(scene.motion->duration / std::max(scene.output.history_interval, step))) +
+         1;
 }
 
 std::vector<PhaseInfo> Sampling::phases() const {
@@ -16,7 +25,7 @@ std::vector<PhaseInfo> Sampling::phases() const {
 }
 
 std::vector<FieldBytes> Sampling::fields() const {
-  return {{RunField::samples, sample_count(model_->scene) * static_cast<std::int64_t>(sizeof(Sample))}};
+  return {{RunField::samples, sample_count(*model_) * static_cast<std::int64_t>(sizeof(Sample))}};
 }
 
 void Sampling::apply(StepPhase phase, StepState& step) {

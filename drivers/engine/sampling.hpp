@@ -9,8 +9,8 @@
 
 namespace tread {
 
-/// Samples that the scene's histories hold; 0 without motion.
-std::int64_t sample_count(const Scene& scene);
+/// Samples that the scene's histories hold, about one a step at most; 0 without motion.
+std::int64_t sample_count(const Model& model);
 
 class Sampling final : public Feature {
  public:

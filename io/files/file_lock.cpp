@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Name of a folder's lock file, which stays empty in the folder.
+/// Name of a folder's lock file, which stays empty.
 constexpr const char* kFolderLock = ".lock";
 
 ResourceError refusal(const char* action, const fs::path& path, int error, const char* way_out) {
@@ -38,9 +39,15 @@ bool is_taken(int error, const fs::path& path) {
   throw refusal("lock", path, error, "; choose a folder on another file system");
 }
 
-/// Opens a folder's lock file; -1 where that cannot be.
-int open_folder_lock(const fs::path& folder, int flags) {
-  return ::open((folder / kFolderLock).c_str(), flags | O_NOFOLLOW | O_CLOEXEC, 0666);
+/// Opens the lock file in an open folder; -1 where that cannot be.
+int open_folder_lock(int folder, int flags) {
+  return ::openat(folder, kFolderLock, flags | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+/// Returns true if the open file has lost its name: the next holder would lock another file.
+bool is_removed(int descriptor) {
+  struct stat found {};
+  return ::fstat(descriptor, &found) != 0 || found.st_nlink == 0;
 }
 
 /// Request for the lock of one byte. The lock belongs to the open file, not to the process: two locks of one
@@ -64,17 +71,27 @@ std::optional<FileLock> FileLock::try_directory(const fs::path& folder) {
 
 std::optional<FileLock> FileLock::try_folder(const fs::path& folder) {
   std::optional<FileLock> lock = try_directory(folder);
-  if (!lock) return std::nullopt;
-  // Network file systems keep locks of directories for each machine alone, those of files for all machines.
-  lock->shared_ = open_folder_lock(folder, O_RDWR | O_CREAT);
-  struct flock byte = byte_lock(0);
-  if (::fcntl(lock->shared_, F_OFD_SETLK, &byte) != 0 && (errno == EAGAIN || errno == EACCES))
-    return std::nullopt;
+  if (!lock || !lock->share()) return std::nullopt;
   return lock;
 }
 
+bool FileLock::share() {
+  // Network file systems keep locks of directories for each machine alone, those of files for all machines.
+  const bool missing = ::faccessat(descriptor_, kFolderLock, F_OK, AT_SYMLINK_NOFOLLOW) != 0;
+  FileLock file(open_folder_lock(descriptor_, O_RDWR | O_CREAT));
+  if (file.descriptor_ < 0) return true;
+  struct flock byte = byte_lock(0);
+  if (::fcntl(file.descriptor_, F_OFD_SETLK, &byte) != 0 && (errno == EAGAIN || errno == EACCES))
+    return false;
+  if (is_removed(file.descriptor_)) return false;
+  shared_ = std::exchange(file.descriptor_, -1);
+  made_ = missing;
+  return true;
+}
+
 bool FileLock::is_held(const fs::path& folder) {
-  const FileLock look(open_folder_lock(folder, O_RDONLY));
+  const FileLock directory(opened(folder, O_RDONLY | O_DIRECTORY));
+  const FileLock look(open_folder_lock(directory.descriptor_, O_RDONLY));
   struct flock byte = byte_lock(0);
   const bool on_some_machine = ::fcntl(look.descriptor_, F_OFD_GETLK, &byte) == 0 && byte.l_type != F_UNLCK;
   return on_some_machine || !try_directory(folder);
@@ -88,9 +105,12 @@ std::optional<FileLock> FileLock::try_number(const fs::path& file, std::uint64_t
 }
 
 FileLock::FileLock(FileLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), shared_(std::exchange(other.shared_, -1)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      shared_(std::exchange(other.shared_, -1)),
+      made_(std::exchange(other.made_, false)) {}
 
 FileLock::~FileLock() {
+  if (made_) ::unlinkat(descriptor_, kFolderLock, 0);
   for (const int descriptor : {descriptor_, shared_})
     if (descriptor >= 0) ::close(descriptor);
 }

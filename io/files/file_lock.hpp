@@ -10,9 +10,9 @@ namespace tread {
 class FileLock {
  public:
   /// Locks a folder, for all machines that share it if this user can write there and its file system has such
-  /// locks, else for this machine. An empty file `.lock` stays in the folder. Returns nullopt while another
-  /// holder has the lock. Throws ResourceError if the folder cannot be opened or its file system has no
-  /// locks.
+  /// locks, else for this machine. The folder then holds an empty file `.lock`; unless it was there before,
+  /// it goes with the lock. Returns nullopt while another holder has the lock. Throws ResourceError if the
+  /// folder cannot be opened or its file system has no locks.
   static std::optional<FileLock> try_folder(const std::filesystem::path& folder);
 
   /// Returns true while try_folder() would find another holder. Leaves no file. Throws as try_folder().
@@ -32,8 +32,12 @@ class FileLock {
   /// Locks a folder for this machine. Returns nullopt and throws as try_folder().
   static std::optional<FileLock> try_directory(const std::filesystem::path& folder);
 
+  /// Extends the lock of a folder to all machines. Returns false while a holder on another one has it.
+  bool share();
+
   int descriptor_;
-  int shared_ = -1;  ///< lock file of a folder, for all machines
+  int shared_ = -1;    ///< lock file of a folder, for all machines
+  bool made_ = false;  ///< true if that file is removed with the lock
 };
 
 }  // namespace tread

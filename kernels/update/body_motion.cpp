@@ -93,10 +93,12 @@ struct Unbalance {
 };
 
 struct Moments {
-  double mass = 0, first_y = 0, second_y = 0, polar = 0;
+  double mass = 0, first_x = 0, first_y = 0, first_z = 0, second_y = 0, polar = 0;
   Moments& operator+=(const Moments& o) {
     mass += o.mass;
+    first_x += o.first_x;
     first_y += o.first_y;
+    first_z += o.first_z;
     second_y += o.second_y;
     polar += o.polar;
     return *this;
@@ -155,18 +157,25 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
       for (int lane = 0; lane < view.tile.stations; ++lane) {
         const double at = mass[view.slot(node) + lane];
         const double y = view.block.section.p[static_cast<std::size_t>(node)];
-        m += Moments{at, at * y, at * y * y, at * view.radius(node) * view.radius(node)};
+        const double r = view.radius(node);
+        const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, r});
+        m += Moments{at, at * down.x, at * y, at * down.z, at * y * y, at * r * r};
       }
     return m;
   });
   for_each_body_node(mesh, true, [&](std::int64_t slot, const Vec3& at) {
     const double m = mass[slot];
-    sums += Moments{m, m * at.y, m * at.y * at.y, m * (at.x * at.x + at.z * at.z)};
+    sums += Moments{m, m * at.x, m * at.y, m * at.z, m * at.y * at.y, m * (at.x * at.x + at.z * at.z)};
   });
   mass_ = sums.mass;
   inertia_ = sums.polar;
   centre_y_ = sums.first_y / sums.mass;
   transverse_ = 0.5 * sums.polar + sums.second_y - sums.mass * centre_y_ * centre_y_;
+  eccentricity_ = {sums.first_x / sums.mass, 0, sums.first_z / sums.mass};
+}
+
+double SpinningBody::eccentric_height(double angle) const {
+  return Turn(angle).of(eccentricity_).z;
 }
 
 MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,

@@ -28,7 +28,10 @@ class SpinningBody {
   double transverse_inertia() const {
     return transverse_;
   }                                              ///< about a diameter through the mass centre [kg m2]
-  double centre_y() const { return centre_y_; }  ///< centre of mass, on the axis [m]
+  double centre_y() const { return centre_y_; }  ///< of the centre of mass [m]
+  /// Height of the centre of mass above the axis, of the undeformed body at the frame's angle [m]: 0 where
+  /// balance() has balanced it.
+  double eccentric_height(double angle) const;
   const std::vector<int>& blocks() const { return blocks_; }
 
   /// Mean motion for the displacement field u [m] and the relative velocity field w [m/s]. `share`: the tiles
@@ -54,6 +57,7 @@ class SpinningBody {
   std::vector<int> blocks_;
   const double* nodal_mass_ = nullptr;
   double mass_ = 0, inertia_ = 0, transverse_ = 0, centre_y_ = 0;
+  Vec3 eccentricity_;  ///< of the centre of mass, from the axis at the angle 0 [m]
 };
 
 }  // namespace tread

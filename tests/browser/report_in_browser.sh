@@ -29,7 +29,7 @@ addEventListener("load", () => {
   const blank = (canvas) => !canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v);
   const charts = [...document.querySelectorAll("figure.chart")];
   const rows = charts.map((figure) => figure.curvesAsCsv ? figure.curvesAsCsv((t) => t).trim().split("\n") : []);
-  const broken = rows.flat().filter((row) => /NaN|undefined/.test(row));
+  const broken = rows.flat().filter((row) => /NaN|undefined| × 10/.test(row));
   // Figures of a chapter over one abscissa zoom together, each as far as it goes, and go back together.
   const ticks = (chart) => [...chart.querySelectorAll(".xtick")].map((mark) => mark.textContent).join();
   const alike = charts.map((chart) => [...chart.closest("section").querySelectorAll("figure.chart")]

@@ -485,7 +485,7 @@ const std::vector<Change>& changes() {
       {"motion.traction.shape", "smooth"},
       {"motion.traction.reversals", "0"},
       {"motion.spin_in_preload", "false"},
-      {"motion.creepage", "0.5"},
+      {"motion.creepage", "1"},
       {"motion.start", "moving"},
       {"motion.step_safety", "0.9"},
       {"corrugation.kind",

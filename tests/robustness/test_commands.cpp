@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,27 @@ TEST_F(Commands, AFinishedRunIsNotOverwritten) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "compare.json"));
 }
 
+TEST_F(Commands, RefusedOnesLeaveAFolderAsItWas) {
+  const fs::path foreign = folder_ / "foreign";
+  fs::create_directory(foreign);
+  EXPECT_EQ(call("resume -t 1 " + foreign.string()).code, 2);
+  EXPECT_EQ(call(fmt::format("ctl {} stop", foreign.string())).code, 2);
+  EXPECT_TRUE(fs::is_empty(foreign));
+  std::ofstream(foreign / "summary.json") << "{}\n";  // as of a finished run
+  const fs::path worn = folder_ / "worn.toml";
+  std::ofstream(worn)
+      << samples::content_of(fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml")
+      << "[corrugation]\nstart = \"0.2 m\"\nlength = \"0.1 m\"\nwavelength = \"50 mm\"\ndepth = \"10 um\"\n"
+         "apply = \"gap\"\n[wear]\nlongest = \"60 mm\"\n";
+  for (const std::string& command :
+       {"run -t 1 " + scene("bar-wave.toml"), "develop --from x " + worn.string()}) {
+    const Outcome outcome = call(fmt::format("{} -o {}", command, foreign.string()));
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(has(outcome.errors, " holds ")) << outcome.errors;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(foreign), {}), 1);
+}
+
 TEST_F(Commands, WithoutAFolderARunGetsADatedOne) {
   const std::string before = fmt::format("cd {} &&", folder_.string());
   const pid_t process = samples::start_program(
@@ -218,7 +240,7 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\" --set \"solution_zone.start=8.49 m\""),
-          "passes it on a rail 0.11 m longer"));
+          "passes it, with rail.length = \\\"15.4 m\\\" and fastenings.count = 24"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.at=-1 m\""), "ahead of surface.squat"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.centre=60 mm\""), "beside what the wheel"));

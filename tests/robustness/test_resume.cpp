@@ -133,6 +133,19 @@ TEST(RunFolders, AHolderOnAnotherMachineCounts) {
   EXPECT_TRUE(is_taken(temporary.path));
 }
 
+TEST(RunFolders, AreLeftAsTheyWereFound) {
+  const TemporaryFolder temporary;
+  const fs::path lock = temporary.path / ".lock";
+  {
+    const RunFolder here(temporary.path);
+    EXPECT_TRUE(fs::exists(lock));
+  }
+  EXPECT_TRUE(fs::is_empty(temporary.path));
+  std::ofstream(lock) << "of another program";
+  { const RunFolder here(temporary.path); }
+  EXPECT_EQ(content_of(lock), "of another program");
+}
+
 TEST(RunRequests, OfSeveralProcessesDoNotDisturbOneAnother) {
   const TemporaryFolder temporary;
   const RunFolder folder(temporary.path);
@@ -289,21 +302,24 @@ TEST_F(Resume, ACheckpointOfAnotherFormatIsRefusedByName) {
 
 TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
   const fs::path source = root_ / "source";
-  fs::create_directories(source);
+  const fs::path link = root_ / "link";
+  fs::create_directories(source / "scenes");
+  fs::create_directory_symlink(source / "scenes", link);
   std::ofstream(source / "depth.txt") << "# x [mm]  d [mm]\n0 0\n10 0.02\n20 0\n";
-  std::ofstream(source / "scene.toml")
+  std::ofstream(source / "scenes/scene.toml")
       << content_of(kTyre)
-      << "[corrugation]\nkind = \"table\"\nfile = \"depth.txt\"\nwidth = \"20 "
+      << "[corrugation]\nkind = \"table\"\nfile = \"../depth.txt\"\nwidth = \"20 "
          "mm\"\nstart = \"10 mm\"\napply = \"gap\"\n";
   const auto table_run = [&](const fs::path& folder, const char* more) {
     return fmt::format(
-        "run scene.toml -t 1 -o {} {} --set output.frames=3 --set \"motion.duration=0.6 ms\" --set "
+        "run link/scene.toml -t 1 -o {} {} --set output.frames=3 --set \"motion.duration=0.6 ms\" --set "
         "\"solution_zone.start=5 mm\" {}",
         folder.string(), kScene, more);
   };
-  const std::string there = fmt::format("cd {} &&", source.string());  // and resumed from elsewhere
+  const std::string there = fmt::format("cd {} &&", root_.string());  // and resumed from elsewhere
   ASSERT_EQ(call(table_run(root_ / "table", ""), there), 0) << errors();
   ASSERT_EQ(call(table_run(folder_, "--set stop.steps=300"), there), 4) << errors();
+  fs::remove(link);
   fs::remove_all(source);
   EXPECT_EQ(call(resume("--set stop.steps=0")), 0) << errors();
   expect_same_run(root_ / "table", folder_);

@@ -140,6 +140,9 @@ TEST_F(Ring, IsBalancedLikeAWheelInAWorkshop) {
   const std::vector<double> made = mass_;
   balance(mesh_, {0}, mass_.data());
   EXPECT_EQ(mass_, made);
+  const SpinningBody eccentric(mesh_, {0}, mass_.data());
+  for (const double angle : {0.0, 0.8, -2.5})
+    EXPECT_NEAR(eccentric.eccentric_height(angle) * eccentric.mass(), rotate(first_moment(), angle).z, 1e-12);
 }
 
 TEST_F(Ring, MomentsAreSumsOverTheNodes) {

@@ -255,6 +255,16 @@ TEST(Memory, CheckpointsCountInRunsThatLastLongEnough) {
 }
 
 /// The order and each of three states carry the files that the scene names; so does a state for forks.
+TEST(Memory, ASampleAStepIsTheMost) {
+  const auto bytes = [](const char* interval) {
+    return peak_bytes(Model(samples::tyre_scene(
+                          {"scene.element_size=8 mm", std::string("output.history_interval=") + interval})),
+                      0);
+  };
+  EXPECT_EQ(bytes("1 ns"), bytes("1e-30 s"));
+  EXPECT_LT(bytes("1 ns"), bytes("1 ms") + (20 << 20));
+}
+
 TEST(Disk, FilesOfTheSceneCount) {
   const std::int64_t files = file_bytes({"scene.toml", "", ".", {{"/a.txt", "12345"}, {"/b.inp", "123"}}});
   EXPECT_EQ(files, 8);

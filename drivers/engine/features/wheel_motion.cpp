@@ -100,7 +100,8 @@ void WheelMotion::watch(const StepState& /*step*/, WatchedNodes& nodes) const {
 
 void WheelMotion::begin_sample(const StepState& step, Sample& sample) {
   const MeanMotion mean = step.whole.mean_motion(parts_.body, step.wheel);
-  const double height = step.wheel.origin.z + mean.displacement.z;
+  const double height =
+      step.wheel.origin.z + parts_.body.eccentric_height(step.wheel.angle) + mean.displacement.z;
   sample.energy.gravity += gravity_ * parts_.body.mass() * height;
   sample.wheel_x = step.wheel.origin.x;
   sample.wheel_z = step.wheel.origin.z;
