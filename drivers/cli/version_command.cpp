@@ -30,7 +30,7 @@ void print_version(bool json) {
         "{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\ndevices           cpu, "
         "emulated, {}\nranks             {}\n",
         program_name(), build.compiler, build.type, fmt::join(sets, ", "), build.packages,
-        cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("gpu: {}", fmt::join(cards, ", ")),
+        cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("{}", fmt::join(cards, ", ")),
         library.empty() ? "one alone: built without MPI" : "mpirun, " + library);
     return;
   }

@@ -22,6 +22,8 @@ constexpr double kElementsOfWave = 10;
 constexpr double kSlope = 0.05;
 /// The same of a defect; a flat of 50 mm has 0.06, a severe squat 0.1.
 constexpr double kSlopeOfDefect = 0.2;
+/// The bound of a curve through places over its steepest secant (MonotoneCubic::steepest).
+constexpr double kBoundOverSecants = 2;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
 
@@ -223,7 +225,9 @@ void add_corrugation_warnings(const Model& model, std::vector<std::string>& warn
   }
   if (spec.kind != "map")
     warnings.push_back(length_warning("the width of the corrugation", 2 * spec.width, element, "it"));
-  warnings.push_back(slope_warning("the corrugation", corrugation.steepest(), kSlope, depth_key(spec)));
+  const double bound = corrugation.steepest();
+  warnings.push_back(slope_warning("the corrugation", spec.kind == "sine" ? bound : bound / kBoundOverSecants,
+                                   kSlope, depth_key(spec)));
 }
 
 void add_surface_warnings(const Model& model, const std::string& name, const SurfaceSpec& spec,
@@ -234,8 +238,11 @@ void add_surface_warnings(const Model& model, const std::string& name, const Sur
         model, table, *depths, spec.kind == "map" ? "its outer row alone has an effect" : "has no effect"));
   warnings.push_back(surface_warning(model, name, spec));
   if (spec.kind == "flat") return;  // its chord is as steep as it is
-  warnings.push_back(slope_warning(table, shape_of(model.scene, spec)->bounds().steepest, kSlopeOfDefect,
-                                   table + (spec.file_x.empty() ? ".depth" : ".file")));
+  const double bound = shape_of(model.scene, spec)->bounds().steepest;
+  if (spec.file_x.empty())
+    warnings.push_back(slope_warning(table, bound, kSlopeOfDefect, table + ".depth"));
+  else
+    warnings.push_back(slope_warning(table, bound / kBoundOverSecants, kSlopeOfDefect, table + ".file"));
 }
 
 }  // namespace

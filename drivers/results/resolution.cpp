@@ -54,10 +54,12 @@ std::string edge_warning(const Model& model) {
   const double lowest = lateral_gap(rail, wheel).lowest;
   const double half = model.hertz_patch.semi_axis_y;
   if (lowest - first >= half && last - lowest >= half) return "";
+  const char* way_out = last - first >= 2 * half ? "change wheel.lateral_offset"
+                                                 : "state wider bodies, or a smaller radius across the rail";
   return fmt::format(
       "wheel and rail touch first at y = {:.3g} mm, and face one another from y = {:.3g} to {:.3g} mm alone: "
-      "an edge cuts the patch of {:.3g} mm off and carries its pressures; change wheel.lateral_offset",
-      1e3 * lowest, 1e3 * first, 1e3 * last, 2e3 * half);
+      "an edge cuts the patch of {:.3g} mm off and carries its pressures; {}",
+      1e3 * lowest, 1e3 * first, 1e3 * last, 2e3 * half, way_out);
 }
 
 /// Sentence where the rail's head is of another stiffness or density than the beams that stand for the rail.

@@ -19,7 +19,9 @@ std::string way_to(const Scene& scene, double x) {
   if (!duration) return "the brakes stop it before";
   const std::string text = fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *duration);
   const bool on_rail = x + kRailEndMargin <= scene.rail->length - scene.rail->origin;
-  return on_rail ? text : fmt::format("{}, with {}", text, keys_to_reach(scene, x));
+  if (on_rail) return text;
+  return fmt::format("{}, with {}", text,
+                     keys_to_reach(scene, x).value_or("a longer rail than there may be"));
 }
 
 /// Sentence if a wheel does not roll over what the scene evaluates.
@@ -48,7 +50,7 @@ std::string fastening_warning(const Scene& scene) {
   const double span = f.spacing + 0.5 * f.pad_length;
   if (way.last > last + span)
     return fmt::format(
-        "the wheel rolls to x = {:.4g} m, but the last fastening stands at x = {:.4g} m, so that nothing "
+        "the wheel comes to x = {:.4g} m, but the last fastening stands at x = {:.4g} m, so that nothing "
         "carries the rail beyond it; state fastenings.count = {}",
         way.last, last, most_fastenings(f, scene.rail->length));
   if (way.first >= first - span) return "";

@@ -44,10 +44,13 @@ int open_folder_lock(int folder, int flags) {
   return ::openat(folder, kFolderLock, flags | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/// Returns true if the open file has lost its name: the next holder would lock another file.
-bool is_removed(int descriptor) {
-  struct stat found {};
-  return ::fstat(descriptor, &found) != 0 || found.st_nlink == 0;
+/// Returns true if the open lock file of a folder has lost its name: the next holder would lock another file.
+bool is_removed(int folder, int descriptor) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) != 0 ||
+         ::fstatat(folder, kFolderLock, &named, AT_SYMLINK_NOFOLLOW) != 0 || open.st_ino != named.st_ino ||
+         open.st_dev != named.st_dev;
 }
 
 /// Request for the lock of one byte. The lock belongs to the open file, not to the process: two locks of one
@@ -83,7 +86,7 @@ bool FileLock::share() {
   struct flock byte = byte_lock(0);
   if (::fcntl(file.descriptor_, F_OFD_SETLK, &byte) != 0 && (errno == EAGAIN || errno == EACCES))
     return false;
-  if (is_removed(file.descriptor_)) return false;
+  if (is_removed(descriptor_, file.descriptor_)) return false;
   shared_ = std::exchange(file.descriptor_, -1);
   made_ = missing;
   return true;

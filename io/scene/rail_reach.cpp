@@ -18,10 +18,11 @@ int most_fastenings(const FasteningSpec& fastenings, double rail_length) {
   return spans >= 0 ? static_cast<int>(std::min(spans, most - 1)) + 1 : 1;
 }
 
-std::string keys_to_reach(const Scene& scene, double x) {
+std::optional<std::string> keys_to_reach(const Scene& scene, double x) {
   constexpr double kSpare = 0.1;   // the stated duration is rounded up [m]
   constexpr double kDigits = 0.1;  // of the stated length [m]
   const double length = kDigits * std::ceil((x + kSpare + kRailEndMargin + scene.rail->origin) / kDigits);
+  if (length > find_key("rail.length")->range.high) return std::nullopt;
   const std::string keys = fmt::format("rail.length = \"{:.6g} m\"", length);
   if (!scene.fastenings) return keys;
   return fmt::format("{} and fastenings.count = {}", keys, most_fastenings(*scene.fastenings, length));

@@ -223,13 +223,13 @@ class Checker {
       require(
           holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
           fmt::format("the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's "
-                      "end; state a shorter motion.duration, or {}",
-                      x, end, kRailEndMargin, way_out));
+                      "end; state a shorter motion.duration{}{}",
+                      x, end, kRailEndMargin, way_out.empty() ? "" : ", or ", way_out));
     };
     const double last = right - kRailEndMargin;
     const double first = std::min(left + kRailEndMargin, scene_.start_x());
     require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last,
-                    keys_to_reach(scene_, travel.last));
+                    keys_to_reach(scene_, travel.last).value_or(""));
     require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first, "a larger rail.origin");
   }
 

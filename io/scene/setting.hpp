@@ -22,7 +22,7 @@ struct Origin {
   Place place;
   std::string source;  ///< as Entry::source
 
-  Notation notation() const { return level == Level::file ? Notation::toml : Notation::plain; }
+  Notation notation() const { return level == Level::command_line ? Notation::plain : Notation::toml; }
 };
 
 struct Setting {

@@ -47,7 +47,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
     throw ResourceError("block \"" + swept_->name + "\": the fields up to it have " + std::to_string(values) +
                         " values, and a device takes " + std::to_string(kMostValues) +
                         "; choose larger elements, or --device cpu");
-  const SectionCut cut = fitting_cut(device, elements);
+  const SectionCut cut = choose_cut(device, elements);
   block_.closed = swept_->closed;
   block_.quads = static_cast<int>(swept_->section.quads.size());
   block_.section_nodes = swept_->section.nodes();
@@ -63,9 +63,9 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
   find_awaiting(device, cut, marks);
 }
 
-/// Cuts the section for the device: into parts of fewer quads where a team lacks memory for the largest one.
+/// A team that lacks memory for the largest part gets parts of fewer quads.
 template <class Real>
-SectionCut BlockMarch<Real>::fitting_cut(const Device& device, const BlockElements<Real>& elements) {
+SectionCut BlockMarch<Real>::choose_cut(const Device& device, const BlockElements<Real>& elements) {
   MarchCut sizes = device.cut();
   block_.run_tiles = std::max(1, sizes.run_tiles);
   const std::vector<int> moved = moved_elements(elements);

@@ -41,7 +41,8 @@ class BlockMarch {
   /// Copies values to the device.
   template <class T, class Allocator>
   const T* keep(Device& device, const std::vector<T, Allocator>& values);
-  SectionCut fitting_cut(const Device& device, const BlockElements<Real>& elements);
+  /// Cuts the section for the teams of the device, and sets the sizes of `block_` by it.
+  SectionCut choose_cut(const Device& device, const BlockElements<Real>& elements);
   void build_tiles(Device& device);
   void build_coefficients(Device& device, const BlockElements<Real>& elements);
   void find_awaiting(Device& device, const SectionCut& cut, std::span<const int> marks);

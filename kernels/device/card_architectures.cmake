@@ -1,5 +1,6 @@
-# find_card_architectures(RESULT FAULT NVCC): architectures of this machine's cards for which NVCC compiles the program, such
-# as 80;90. FAULT: why there are none; else empty.
+# find_card_architectures(RESULT FAULT NVCC): architectures, such as 80;90, for which NVCC compiles the program so that this
+# machine's cards run it: for each card the highest one that is not above the card's, from whose PTX a newer card gets its
+# code. FAULT: why there are none; else empty.
 function(find_card_architectures result fault nvcc)
   execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader
     RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
@@ -10,19 +11,28 @@ function(find_card_architectures result fault nvcc)
     string(REGEX MATCHALL "[0-9]+" known "${listed}")
     list(FILTER known EXCLUDE REGEX "^[1-7]?[0-9]$") # teams sum over warps by instructions that cards have since 8.0
     list(REMOVE_DUPLICATES known)
+    list(SORT known COMPARE NATURAL)
     string(REPLACE "." "" said "${said}")
     string(REGEX MATCHALL "[0-9]+" of_cards "${said}")
     list(REMOVE_DUPLICATES of_cards)
-    foreach(architecture ${of_cards})
-      if(architecture IN_LIST known)
-        list(APPEND found ${architecture})
+    foreach(of_card ${of_cards})
+      set(usable ${known})
+      foreach(architecture ${known})
+        if(architecture GREATER of_card)
+          list(REMOVE_ITEM usable ${architecture})
+        endif()
+      endforeach()
+      if(usable)
+        list(GET usable -1 highest)
+        list(APPEND found ${highest})
       endif()
     endforeach()
+    list(REMOVE_DUPLICATES found)
     if(NOT found)
       list(JOIN of_cards ", " of_cards)
       list(JOIN known ", " known)
       set(why "this machine's card has the architecture ${of_cards}, and this nvcc compiles tread for ${known}")
-      set(why "${why}; take a newer card or CUDA")
+      set(why "${why}; take a newer card")
     endif()
   else()
     string(REGEX MATCH "[^\n]+" reason "${said}\n${status}")

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -253,13 +254,17 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     const MarchBlock<Real>& block;
     const MarchFields<Real, U>& fields;
 
+    /// Advice to runs in double. All others march in float already.
+    static constexpr const char* kLessMemory =
+        std::is_same_v<Real, double> ? "scene.precision = \"mixed\" needs less, " : "";
+
     template <class March>
     void operator()() const {
       const std::size_t bytes = March::shared_bytes(block);
       if (bytes > device.team_bytes())
         throw ResourceError("the GPU " + device.label() + " shares " + std::to_string(device.team_bytes()) +
                             " B among the threads of a team, and " + std::to_string(bytes) +
-                            " B are needed; scene.precision = \"mixed\" needs less, --device cpu none");
+                            " B are needed; " + kLessMemory + "--device cpu needs none");
       const auto kernel = march_kernel<March, Real, U>;
       device.allow(kernel, bytes);
       kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes, device.stream()>>>(block, fields);
@@ -285,7 +290,8 @@ std::vector<int> gpu_numbers() {
 
 std::vector<std::string> gpus() {
   std::vector<std::string> names;
-  for (const int number : gpu_numbers()) names.emplace_back(properties_of(number).name);
+  for (const int number : gpu_numbers())
+    names.push_back("gpu:" + std::to_string(number) + " " + properties_of(number).name);
   return names;
 }
 

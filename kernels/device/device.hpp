@@ -217,7 +217,7 @@ std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
 /// Numbers that CUDA gives the cards that this program has code for, ascending; empty where it is built
 /// without, or the machine has none.
 std::vector<int> gpu_numbers();
-/// Their names.
+/// These cards as `--device` calls them, with their names, such as "gpu:1 NVIDIA H200".
 std::vector<std::string> gpus();
 /// Why gpus() is empty.
 std::string why_no_gpu();

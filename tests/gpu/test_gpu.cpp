@@ -107,6 +107,11 @@ TEST_F(Gpu, RanksWithADeviceEach) {
   }
 }
 
+TEST_F(Gpu, CardsAreListedByTheirNumbers) {
+  const std::string first = "gpu:" + std::to_string(gpu_numbers().front()) + " ";
+  EXPECT_EQ(gpus().front(), first + card()->name());
+}
+
 TEST_F(Gpu, ACardThatIsNotThereIsRefused) {
   EXPECT_THROW(open_gpu(gpu_numbers().back() + 1), ResourceError);
 }

@@ -136,6 +136,7 @@ TEST_F(Sweep, LauncherStartsTheRuns) {
   const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
   EXPECT_EQ(sweep(file, "--launcher no-such-program"), 2);
   EXPECT_TRUE(has(errors(), "--launcher: there is no program 'no-such-program' in PATH")) << errors();
+  EXPECT_FALSE(fs::exists(runs_));
   const fs::path launcher =
       program_.write("launcher", "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "calls").string() +
                                      "\nshift 2\nexec \"$@\"\n");

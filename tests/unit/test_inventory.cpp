@@ -254,7 +254,6 @@ TEST(Memory, CheckpointsCountInRunsThatLastLongEnough) {
   EXPECT_LE(peak_bytes(model, 599), peak_bytes(model, 600));
 }
 
-/// The order and each of three states carry the files that the scene names; so does a state for forks.
 TEST(Memory, ASampleAStepIsTheMost) {
   const auto bytes = [](const char* interval) {
     return peak_bytes(Model(samples::tyre_scene(
@@ -265,6 +264,7 @@ TEST(Memory, ASampleAStepIsTheMost) {
   EXPECT_LT(bytes("1 ns"), bytes("1 ms") + (20 << 20));
 }
 
+/// The order and each of three states carry the files that the scene names; so does a state for forks.
 TEST(Disk, FilesOfTheSceneCount) {
   const std::int64_t files = file_bytes({"scene.toml", "", ".", {{"/a.txt", "12345"}, {"/b.inp", "123"}}});
   EXPECT_EQ(files, 8);

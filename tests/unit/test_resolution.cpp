@@ -33,6 +33,7 @@ std::vector<std::string> of_tyre(Overrides overrides) {
 
 TEST(ElementSize, IsNamedWhereTheKeyTakesIt) {
   EXPECT_EQ(resolving_size(3e-4, "it"), "scene.element_size = \"0.3 mm\" resolves it");
+  EXPECT_EQ(resolving_size(2.675e-3, "it"), "scene.element_size = \"2.6 mm\" resolves it");
   EXPECT_EQ(resolving_size(3e-5, "it"), "no mesh resolves it: scene.element_size is at least 0.05 mm");
 }
 

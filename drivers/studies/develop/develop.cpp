@@ -40,13 +40,12 @@ std::string passage_text(const Development& development) {
 void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
-  if (options.from.empty() && !std::filesystem::exists(options.output / kKeptScene))
-    require_way_to_zone(resolved, options.passages);
+  const double room = options.from.empty() ? room_of_passage0(resolved, options.passages) : 0;
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
   const DevelopmentFolder folder(options.output, resolved,
-                                 {options.from, options.threads, options.device, options.passages});
+                                 {options.from, options.threads, options.device, options.passages, room});
   interruption.defer();
   development.begin(folder.pass(0, nullptr, progress), *resolved.scene.corrugation);
   for (int number = 1; number <= options.passages; ++number) {

@@ -217,8 +217,7 @@ std::vector<std::string> DevelopmentFolder::overrides(int number, const Developm
   if (number == 0) {
     // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
     // run with whose state they begin.
-    if (options_.from.empty())
-      list.push_back(fmt::format("contact.depth_room={} m", growing_room(scene_, options_.passages)));
+    if (options_.from.empty()) list.push_back(fmt::format("contact.depth_room={} m", options_.room));
     return list;
   }
   const CorrugationSpec& spec = *scene_.corrugation;
@@ -315,24 +314,41 @@ SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
   return result;
 }
 
-void require_way_to_zone(const ResolvedScene& resolved, int passages) {
+namespace {
+
+/// How the wheel comes near the zone in passage 0 with so much room [m]; nullopt where the way is long enough
+/// for any.
+std::optional<Approach> near_approach(const ResolvedScene& resolved, double room) {
   constexpr double kFar = 0.3;  // beyond the reach of any patch [m]
   Scene smooth = resolved.scene;
-  if (smooth.forks && smooth.forks->at) return;
-  if (smooth.zone_start - smooth.start_x() > kFar) return;
-  smooth.contact->depth_room = growing_room(smooth, passages);
+  if (smooth.forks && smooth.forks->at) return std::nullopt;
+  if (smooth.zone_start - smooth.start_x() > kFar) return std::nullopt;
+  smooth.contact->depth_room = room;
   smooth.corrugation.reset();
   smooth.wear.reset();
   smooth.forks.emplace();
   const Model model = scene_model(smooth, resolved);
-  const Approach approach = approach_of(smooth, model.contact->reach());
-  if (approach.time(*smooth.motion, smooth.zone_start) > 0) return;
+  return approach_of(smooth, model.contact->reach());
+}
+
+}  // namespace
+
+double room_of_passage0(const ResolvedScene& resolved, int passages) {
+  const Scene& scene = resolved.scene;
+  const auto has_way = [&](const std::optional<Approach>& approach) {
+    return !approach || approach->time(*scene.motion, scene.zone_start) > 0;
+  };
+  const double grown = growing_room(scene, passages);
+  if (has_way(near_approach(resolved, grown))) return grown;
+  const double least = growing_room(scene, 0);
+  const std::optional<Approach> approach = near_approach(resolved, least);
+  if (has_way(approach)) return least;
   throw InputError(fmt::format(
       "tread develop: solution_zone.start = {:.4g} mm: all passages begin with a state that is kept before "
       "the patch comes near the zone, but the wheel starts at x = {:.4g} mm and needs a way of more than "
       "{:.4g} mm up to it; state {}, or the time of the state by forks.at",
-      1e3 * smooth.zone_start, 1e3 * smooth.start_x(), 1e3 * approach.before,
-      smooth.motion->run_up ? "a longer motion.run_up" : "a later solution_zone.start"));
+      1e3 * scene.zone_start, 1e3 * scene.start_x(), 1e3 * approach->before,
+      scene.motion->run_up ? "a longer motion.run_up" : "a later solution_zone.start"));
 }
 
 }  // namespace tread

@@ -19,7 +19,8 @@ class DevelopmentFolder {
     std::string from;    ///< run with whose state all passages begin, as in fork_from(); empty: passage 0
     int threads = 0;     ///< threads of a passage; 0: all
     std::string device;  ///< takes the steps; empty: the processor
-    int passages = 0;    ///< passages of the whole development: progress lines, room of passage 0
+    int passages = 0;    ///< passages of the whole development, for progress lines
+    double room = 0;     ///< that passage 0 leaves, if nothing is stated by `from` [m]
   };
 
   /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds
@@ -54,8 +55,9 @@ class DevelopmentFolder {
 /// stretch.
 SurfaceWork work_of_run(const std::filesystem::path& surface, double first, double last);
 
-/// Throws InputError where passages that begin with a state of passage 0 have none: its wheel stands too near
-/// the solution zone, and the scene does not state forks.at. `passages`: those that passage 0 has room for.
-void require_way_to_zone(const ResolvedScene& resolved, int passages);
+/// Room that passage 0 leaves for growing waves [m]: for those of so many passages where its wheel has way
+/// enough before the solution zone, otherwise for waves twice as deep. Throws InputError where the wheel
+/// stands too near the zone for a state before it, and the scene does not state forks.at.
+double room_of_passage0(const ResolvedScene& resolved, int passages);
 
 }  // namespace tread

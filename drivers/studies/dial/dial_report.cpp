@@ -31,7 +31,11 @@ double shown_cost(const DialRow& row, DialCost cost) {
 /// Point, cost and `cell(difference)` of every quantity.
 template <class Cell>
 Table quantity_table(const DialTable& table, const Cell& cell) {
-  Table result{"", {{"Point"}, {"Element-steps [10⁹]", Align::right}, {"Core [min]", Align::right}}, {}};
+  Table result{"",
+               {{.title = "Point", .plain = true},
+                {"Element-steps [10⁹]", Align::right},
+                {"Core [min]", Align::right}},
+               {}};
   for (const DialQuantity& quantity : dial_quantities())
     result.columns.push_back({quantity.title, Align::right});
   for (const DialRow& row : table.rows) {

@@ -178,7 +178,7 @@ Chapter map_chapter(const MultibodyOutcome& o) {
   Chapter chapter{"Map", {response_heatmap(o)}};
   if (o.dots.empty()) return chapter;
   Table table{"Transient runs",
-              {{"Run"},
+              {{.title = "Run", .plain = true},
                {"Speed [km/h]", Align::right},
                {"Wavelength [mm]", Align::right},
                {"max F_N / static", Align::right},

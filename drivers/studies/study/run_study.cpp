@@ -234,14 +234,15 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                                                                "runs go on from their last "
                                                                                "checkpoints with `{}`",
                                                                                resume_command));
-  std::optional<RunFolder> folder;
-  if (!options.list) {
-    if (require_folder_of(plan.folder, command)) require_same_study(plan);
-    make_directory(plan.folder);
-    folder.emplace(plan.folder);
-  }
+  if (!options.list && require_folder_of(plan.folder, command)) require_same_study(plan);
   if (!options.output.empty()) look_into_folders(plan);
   require_machine(plan, options);
+  std::optional<RunFolder> folder;
+  if (!options.list) {
+    make_directory(plan.folder);
+    folder.emplace(plan.folder);
+    look_into_folders(plan);  // while no other process works there
+  }
   project_cost(plan, options.retry);
   mind_memory(plan, options);
   const StudyCost cost = total_cost(plan);

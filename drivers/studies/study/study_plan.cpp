@@ -292,7 +292,7 @@ std::int64_t disk_still_needed(const StudyPlan& plan) {
 
 Table plan_table(const StudyPlan& plan) {
   Table table{"",
-              {{"Point"},
+              {{.title = "Point", .plain = true},
                {"State"},
                {"Elements", Align::right},
                {"Steps", Align::right},

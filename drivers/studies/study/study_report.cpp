@@ -151,7 +151,7 @@ std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& ru
 }
 
 Table result_table(const std::vector<FinishedRun>& runs) {
-  Table table{"", {{"Point"}}, {}};
+  Table table{"", {{.title = "Point", .plain = true}}, {}};
   std::vector<const ResultColumn*> shown;
   const bool some_roll =
       std::any_of(runs.begin(), runs.end(), [](const FinishedRun& run) { return run.number("steps") > 0; });
@@ -199,7 +199,7 @@ Chapter curve_chapter(const std::vector<FinishedRun>& rolled) {
 }
 
 Table point_table(const StudyPlan& plan) {
-  Table table{"", {{"Point"}, {"State"}}, {}};
+  Table table{"", {{.title = "Point", .plain = true}, {"State"}}, {}};
   const std::vector<std::string> keys = varied_keys(plan);
   for (const std::string& key : keys)
     table.columns.push_back({fmt::format("{} [{}]", key, unit_of(key)), Align::right});
