@@ -18,6 +18,8 @@ void add_plan_options(CLI::App& command, MeasurementPlan& plan) {
   command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")->check(at_least(0));
 }
 
+constexpr const char* kJsonLines = "one JSON object a line on stdout";
+
 void add_bench_kernels(CLI::App& bench) {
   auto options = std::make_shared<BenchKernelsOptions>();
   CLI::App& command = *bench.add_subcommand(
@@ -25,7 +27,7 @@ void add_bench_kernels(CLI::App& bench) {
   add_thread_options(command, options->threads);
   add_device_option(command, options->device);
   add_plan_options(command, options->plan);
-  command.add_flag("--json", options->json, "one JSON object a line on stdout");
+  command.add_flag("--json", options->json, kJsonLines);
   command.add_option("--kernel", options->kernels, "names of kernels (default: all)");
   command.add_option("--elements", options->elements, "mesh sizes (default: 10000 100000 1460000)")
       ->check(CLI::Range(100, 100000000));
@@ -45,7 +47,7 @@ void add_bench_scaling(CLI::App& bench) {
       .add_option("--elements", state->options.elements,
                   "elements of the made-up rail that is measured without a scene (default: 400000)")
       ->check(CLI::Range(100, 100000000));
-  command.add_flag("--json", state->options.json, "one JSON object a line on stdout");
+  command.add_flag("--json", state->options.json, kJsonLines);
   command.callback([state] {
     const SceneArguments& stated = state->arguments;
     if (stated.scene.empty() &&
@@ -64,6 +66,7 @@ void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<BenchHotspotsOptions>>();
   CLI::App& command = add_scene_command(
       bench, "hotspots", "time, work and load balance of every phase of a step", bench_hotspots, state);
+  command.get_option("--json")->description(kJsonLines);
   add_device_option(command, state->options.device);
   command.add_option("--steps", state->options.steps, "steps of a run (default: 500)")->check(at_least(1));
   command
@@ -79,6 +82,7 @@ void add_bench_ranks(CLI::App& bench) {
   CLI::App& command = add_scene_command(
       bench, "ranks", "nodes, memory and messages of a scene cut for ranks that are not there", bench_ranks,
       state);
+  command.get_option("--json")->description(kJsonLines);
   command.add_option("--ranks", state->options.ranks, "number of ranks (default: 64)")->check(at_least(1));
   command
       .add_option("--parts", state->options.parts,

@@ -5,50 +5,72 @@
 #include <utility>
 
 #include "drivers/engine/traction.hpp"
+#include "kernels/contact/contact_surface.hpp"
 #include "kernels/update/turn.hpp"
 
 namespace tread {
 
 namespace {
 
-/// Adds the motions of the rail's sections, `motion(x)`, to a field: [m] or [m/s].
-template <class MotionAt>
-void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<double>& field) {
-  // Rotation is about the rail's centroid.
+/// A section of a beam and how it changes along the rail.
+struct BentSection {
+  SectionMotion motion;
+  SectionMotion slope;  ///< d/dx of the motion [1/m of it]
+};
+
+BentSection bent_section(const RunIn& run_in, SectionMotion RunIn::Section::*part, double x) {
+  const auto at = [&](double place) { return run_in.at(place).*part; };
+  return {at(x), 0.5 / run_in.pitch * (at(x + run_in.pitch) - at(x - run_in.pitch))};
+}
+
+/// Motion of a point at y, z from the section's centroid: the sides of a bent rail are free, and contract as
+/// its fibres stretch. [theory.md, eq. (12c)]
+Vec3 motion_in(const BentSection& bent, double poissons_ratio, double y, double z) {
+  const SectionMotion& section = bent.motion;
+  const double stretch = bent.slope.axial, bend = bent.slope.rotation;
+  return {section.axial + z * section.rotation, -poissons_ratio * (stretch + bend * z) * y,
+          -section.deflection - poissons_ratio * (stretch * z + 0.5 * bend * (z * z - y * y))};
+}
+
+/// Centroid of the rail's section: of its mass by length [m].
+Vec3 rail_centroid(const Model& model) {
   double mass = 0;
-  double moment = 0;
+  Vec3 moment;
+  const auto add = [&](double m, double y, double z) {
+    mass += m;
+    moment += Vec3{0, m * y, m * z};
+  };
   for (const int b : model.index.rail()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
-    for (int node = 0; node < block.section.nodes(); ++node) {
-      const double m =
-          model.mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1);
-      mass += m;
-      moment += m * block.section.q[static_cast<std::size_t>(node)];
-    }
+    for (int node = 0; node < block.section.nodes(); ++node)
+      add(model.mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1),
+          block.section.p[static_cast<std::size_t>(node)], block.section.q[static_cast<std::size_t>(node)]);
   }
   const double length = model.scene.rail->length;
   for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
-    const double m = model.mass[static_cast<std::size_t>(slot)] / length;
-    mass += m;
-    moment += m * at.z;
+    add(model.mass[static_cast<std::size_t>(slot)] / length, at.y, at.z);
   });
-  const double centroid = moment / mass;
+  return (1 / mass) * moment;
+}
+
+/// Adds the run-in's `part` of the rail to a field: [m] or [m/s].
+void add_to_rail(const Model& model, const RunIn& run_in, SectionMotion RunIn::Section::*part,
+                 AlignedVector<double>& field) {
+  const Vec3 centroid = rail_centroid(model);
+  const double nu = model.scene.rail_material().poissons_ratio;
+  NodeField nodes(field.data());
   for (const int b : model.index.rail()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     for (int station = 0; station < block.station_count(); ++station) {
-      const SectionMotion section = motion(block.stations[static_cast<std::size_t>(station)]);
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const double above = block.section.q[static_cast<std::size_t>(node)] - centroid;
-        field[static_cast<std::size_t>(dof(slot, 0))] += section.axial + above * section.rotation;
-        field[static_cast<std::size_t>(dof(slot, 2))] -= section.deflection;
-      }
+      const BentSection bent = bent_section(run_in, part, block.stations[static_cast<std::size_t>(station)]);
+      for (int node = 0; node < block.section.nodes(); ++node)
+        nodes.add(block.base + block.slot(node, station),
+                  motion_in(bent, nu, block.section.p[static_cast<std::size_t>(node)] - centroid.y,
+                            block.section.q[static_cast<std::size_t>(node)] - centroid.z));
     }
   }
   for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
-    const SectionMotion section = motion(at.x);
-    NodeField(field.data())
-        .add(slot, {section.axial + (at.z - centroid) * section.rotation, 0, -section.deflection});
+    nodes.add(slot, motion_in(bent_section(run_in, part, at.x), nu, at.y - centroid.y, at.z - centroid.z));
   });
   for (const std::int64_t unknown : model.restrained) field[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({field.data()});
@@ -97,12 +119,24 @@ void roll_freely(const Model& model, const Preload& preload, const StartFields& 
 
 }  // namespace
 
+namespace {
+
+/// Rise of the crown's middle by the run-in at x [m].
+double crown_rise(const Model& model, const RunIn& run_in, double x) {
+  const SurfaceProfile crown(model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)].section);
+  const Vec3 centroid = rail_centroid(model);
+  return motion_in(bent_section(run_in, &RunIn::Section::displacement, x),
+                   model.scene.rail_material().poissons_ratio, -centroid.y, crown.q_at(0) - centroid.z)
+      .z;
+}
+
+}  // namespace
+
 void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
   if (!run_in) return;
-  add_to_rail(
-      model, [&](double x) { return run_in->at(x).displacement; }, fields.displacement);
+  add_to_rail(model, *run_in, &RunIn::Section::displacement, fields.displacement);
   add_to_sleepers(model, *run_in, &RunIn::Sleeper::deflection, fields.displacement);
-  fields.wheel.origin.z -= run_in->at(fields.wheel.origin.x).displacement.deflection;
+  fields.wheel.origin.z += crown_rise(model, *run_in, fields.wheel.origin.x);
 }
 
 namespace {
@@ -116,8 +150,7 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
   const bool deflected = model.scene.start() != "rigid";
   if (deflected) move_deflection(model, speed, fields);
   if (run_in) {
-    add_to_rail(
-        model, [&](double x) { return run_in->at(x).rate; }, fields.velocity);
+    add_to_rail(model, *run_in, &RunIn::Section::rate, fields.velocity);
     add_to_sleepers(model, *run_in, &RunIn::Sleeper::speed, fields.velocity);
   }
   if (run_in) bend_axle(model, run_in->bending_speed, fields);

@@ -29,7 +29,7 @@ std::string place_warning(const Scene& scene) {
   std::string what = "the solution zone";
   Span place{scene.zone_start, scene.solution_zone().end()};
   double enough = place.first;
-  const char* lost = "the run leaves no stresses";
+  const char* lost = "the run's values are those of the way from the start";
   if (scene.corrugation) {
     const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
     what = "the corrugation";

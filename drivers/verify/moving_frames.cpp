@@ -275,10 +275,11 @@ void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progr
   const double a = inputs["semi_axis"];
   // On coarser patches the meshes of wheel and ground lock into one another and exchange spin for speed.
   if (a > 0.06 * ring.radius || ring.element_size > a / 2.99)
-    throw InputError(fmt::format(
-        "verify: semi_axis = {:.3g} mm lies between {:.3g} mm, three elements of {:.3g} mm, and {:.3g} mm, "
-        "small against the radius",
-        1e3 * a, 3e3 * ring.element_size, 1e3 * ring.element_size, 60 * ring.radius));
+    throw InputError(
+        fmt::format("verify: semi_axis = {:.3g} mm must lie between {:.3g} mm, three elements of {:.3g} mm, "
+                    "and {:.3g} mm, "
+                    "small against the radius",
+                    1e3 * a, 3e3 * ring.element_size, 1e3 * ring.element_size, 60 * ring.radius));
   const double load =
       line_load(ring.radius, contact_modulus(kYoungsModulus, kPoissonsRatio), a) * ring.element_size;
   ring.more = ground(ring, load);

@@ -48,7 +48,7 @@ CaseResult ring_modes(const VerifyInputs& inputs, const ProgressText& progress) 
   const double size = inputs["element_size"];
   if (thickness > 0.6 * radius || size > 0.3 * thickness)
     throw InputError(
-        fmt::format("verify: thickness = {:.3g} mm lies between {:.3g} mm, for which the elements "
+        fmt::format("verify: thickness = {:.3g} mm must lie between {:.3g} mm, for which the elements "
                     "of {:.3g} mm are small enough, and {:.3g} mm, 0.6 of the radius",
                     1e3 * thickness, 1e3 * size / 0.3, 1e3 * size, 600 * radius));
   const PlaneRing ring{radius - thickness, radius, inputs["youngs_modulus"], inputs["poissons_ratio"],

@@ -23,7 +23,7 @@ bool VerifyInputs::set(std::string_view name, std::string_view value) {
       return input.quantity ? format_quantity(si, input.unit) : fmt::format("{:g}", si);
     };
     if (!(number >= input.allowed[0] && number <= input.allowed[1]))
-      throw InputError(fmt::format("--set {} = {}: {} lies between {} and {}", name, value, input.meaning,
+      throw InputError(fmt::format("--set {} = {}: {} must lie between {} and {}", name, value, input.meaning,
                                    shown(input.allowed[0]), shown(input.allowed[1])));
     input.value = number;
     return true;

@@ -28,16 +28,28 @@ void turn(std::vector<double>& values) {
   for (double& value : values) value = -value;
 }
 
-void check_size(const UnderstoodProfile& p, bool wheel) {
+/// Throws InputError, which names the points as `points` and asks `doubt`, unless their number and width are
+/// those of a profile.
+void check_size(const UnderstoodProfile& p, bool wheel, const std::string& points, const std::string& doubt) {
   constexpr std::size_t kFewest = 10;
   if (p.y.size() < kFewest)
     throw InputError(fmt::format("{} points: a profile needs at least {}", p.y.size(), kFewest));
   const auto [low, high] = range_of(p.y);
   const Range allowed = wheel ? Range{90 * mm, 200 * mm} : Range{40 * mm, 200 * mm};
   if (!(high - low >= allowed.low && high - low <= allowed.high))
-    throw InputError(fmt::format(
-        "the points are {:.4g} mm wide; a {} profile has {:g} to {:g} mm: are the units {} right?",
-        (high - low) / mm, wheel ? "whole wheel" : "rail", allowed.low / mm, allowed.high / mm, p.units));
+    throw InputError(fmt::format("{} are {:.4g} mm wide; a {} profile has {:g} to {:g} mm: {}", points,
+                                 (high - low) / mm, wheel ? "whole wheel" : "rail", allowed.low / mm,
+                                 allowed.high / mm, doubt));
+}
+
+void check_points_of_file(const UnderstoodProfile& p, bool wheel) {
+  check_size(p, wheel, "the points", fmt::format("are the units {} right?", p.units));
+}
+
+void check_kept_points(const UnderstoodProfile& p, bool wheel) {
+  check_size(p, wheel, fmt::format("after {} points beyond the surface are cut, the others", p.cut),
+             wheel ? "is y zero at the nominal rolling circle or at the flange's back?"
+                   : "is it a whole rail head?");
 }
 
 /// z of the point nearest to the middle of the width.
@@ -136,7 +148,7 @@ UnderstoodProfile understand(FilePoints points, const ProfileWish& wish) {
   p.y = std::move(points.y);
   p.z = std::move(points.z);
   p.duplicates = remove_duplicates(p.y, p.z);
-  check_size(p, wish.wheel);
+  check_points_of_file(p, wish.wheel);
   if (wish.wheel)
     orient_wheel(p);
   else
@@ -151,7 +163,7 @@ UnderstoodProfile understand(FilePoints points, const ProfileWish& wish) {
   const Kept kept = wish.wheel ? keep_tread_and_flange(p.y, p.z) : keep_head(p.y, p.z);
   p.folded = kept.folded;
   p.cut = kept.cut;
-  check_size(p, wish.wheel);
+  check_kept_points(p, wish.wheel);
   finish(p, wish);
   return p;
 }

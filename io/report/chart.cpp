@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 
 #include "io/report/markup.hpp"
 #include "io/report/picture.hpp"
+#include "io/report/thinning.hpp"
 
 namespace tread {
 
@@ -128,8 +128,14 @@ const char* stroke_class(Stroke stroke) {
   }
 }
 
-/// Path of the curve inside the range and of one point beyond on either side, thinned.
-std::string path_data(const Series& series, const Scale& x, const Scale& y) {
+/// Data of SVG paths: a curve, and dots where a point has no neighbour.
+struct CurvePaths {
+  std::string line;
+  std::string dots;
+};
+
+/// Paths of the curve inside the range and of one point beyond on either side, thinned.
+CurvePaths curve_paths(const Series& series, const Scale& x, const Scale& y) {
   const auto inside = [&](std::size_t i) {
     return i < series.x.size() && series.x[i] >= x.value[0] && series.x[i] <= x.value[1];
   };
@@ -140,14 +146,19 @@ std::string path_data(const Series& series, const Scale& x, const Scale& y) {
       xs.push_back(series.x[i]);
       ys.push_back(series.y[i]);
     }
-  std::string path;
-  bool pen_down = false;
-  for (const std::size_t i : thinned(ys, kGroups)) {
-    const bool drawn = std::isfinite(xs[i]) && std::isfinite(ys[i]);
-    if (drawn) path += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", x(xs[i]), y(ys[i]));
-    pen_down = drawn;
+  const std::vector<std::size_t> kept = thinned(ys, kGroups);
+  const auto drawn = [&](std::size_t k) {
+    return k < kept.size() && std::isfinite(xs[kept[k]]) && std::isfinite(ys[kept[k]]);
+  };
+  CurvePaths paths;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (!drawn(k)) continue;
+    const bool pen_down = k > 0 && drawn(k - 1);
+    const std::string place = fmt::format("{:.2f} {:.2f}", x(xs[kept[k]]), y(ys[kept[k]]));
+    paths.line += (pen_down ? "L" : "M") + place;
+    if (!pen_down && !drawn(k + 1)) paths.dots += fmt::format("M{}h0", place);
   }
-  return path;
+  return paths;
 }
 
 struct Layout {
@@ -157,9 +168,14 @@ struct Layout {
   int first_series = 0;
 };
 
+/// Colour of the figure's curve with that number.
+std::string curve_colour(const Series& series, int number) {
+  return fmt::format("c{}", series.colour.value_or(number) % kColours);
+}
+
 /// Style of the figure's curve with that number.
 std::string curve_style(const Series& series, int number) {
-  return fmt::format("curve c{} {}", series.colour.value_or(number) % kColours, stroke_class(series.stroke));
+  return fmt::format("curve {} {}", curve_colour(series, number), stroke_class(series.stroke));
 }
 
 /// Clips the content to a window and leaves its coordinates unchanged.
@@ -173,9 +189,17 @@ std::string clipped(double top, double bottom, const std::string& content) {
 std::string curves_svg(const Panel& panel, const Layout& at, const Scale& y) {
   std::string svg;
   int number = at.first_series;
-  for (const Series& series : panel.series)
-    svg += fmt::format("<path class=\"{}\" data-name=\"{}\" d=\"{}\"/>\n", curve_style(series, number++),
-                       html_escaped(series.label), path_data(series, at.x, y));
+  for (const Series& series : panel.series) {
+    const CurvePaths paths = curve_paths(series, at.x, y);
+    svg += fmt::format("<path class=\"{}\" data-name=\"{}\" d=\"{}\"/>\n", curve_style(series, number),
+                       html_escaped(series.label), paths.line);
+    if (!paths.dots.empty())
+      svg += fmt::format(
+          "<path class=\"{}\" stroke-width=\"6\" stroke-linecap=\"round\" "
+          "vector-effect=\"non-scaling-stroke\" d=\"{}\"/>\n",
+          curve_colour(series, number), paths.dots);
+    ++number;
+  }
   return clipped(at.top, at.bottom, svg);
 }
 
@@ -256,38 +280,6 @@ std::string legend_html(const Figure& figure) {
 }
 
 }  // namespace
-
-std::vector<std::size_t> thinned(std::span<const double> values, std::size_t groups) {
-  std::vector<std::size_t> kept;
-  const std::size_t n = values.size();
-  if (n <= 2 * groups) {
-    for (std::size_t i = 0; i < n; ++i) kept.push_back(i);
-    return kept;
-  }
-  const auto keep = [&](std::initializer_list<std::size_t> candidates) {
-    std::vector<std::size_t> sorted(candidates);
-    std::sort(sorted.begin(), sorted.end());
-    for (const std::size_t i : sorted)
-      if (i < n && (kept.empty() || i > kept.back())) kept.push_back(i);
-  };
-  keep({0});
-  for (std::size_t group = 0; group < groups; ++group) {
-    std::size_t lowest = n;
-    std::size_t highest = n;
-    std::size_t gap = n;
-    for (std::size_t i = group * n / groups; i < (group + 1) * n / groups; ++i) {
-      if (!std::isfinite(values[i])) {
-        gap = i;
-        continue;
-      }
-      if (lowest == n || values[i] < values[lowest]) lowest = i;
-      if (highest == n || values[i] > values[highest]) highest = i;
-    }
-    keep({lowest, highest, gap});
-  }
-  keep({n - 1});
-  return kept;
-}
 
 std::vector<double> ticks(double low, double high, int count) {
   if (!is_range(low, high)) return {low};

@@ -2,9 +2,7 @@
 // Curves over a common abscissa, drawn as SVG.
 
 #include <array>
-#include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -61,10 +59,6 @@ std::string figure_html(const Figure& figure);
 
 /// The figure as a self-contained SVG file, with title, legend and caption.
 std::string figure_svg(const Figure& figure);
-
-/// Indices of at most about 2 * groups points: the smallest and largest value of each of `groups` runs of
-/// equal length, both ends, and one non-finite value of each run that has any.
-std::vector<std::size_t> thinned(std::span<const double> values, std::size_t groups);
 
 /// About `count` values within [low, high], 1, 2 or 5 times a power of ten apart.
 std::vector<double> ticks(double low, double high, int count);

@@ -23,15 +23,6 @@ constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // left border of the co
 constexpr double kScaleWidth = 18;
 constexpr int kShades = 48;  // number of shades of the colour scale
 
-/// Borders of the cells about values in order; the outer cells reach as far out as in.
-std::vector<double> cell_borders(const std::vector<double>& values) {
-  if (values.size() == 1) return {values.front() - 0.5, values.front() + 0.5};
-  std::vector<double> borders = {1.5 * values[0] - 0.5 * values[1]};
-  for (std::size_t i = 1; i < values.size(); ++i) borders.push_back(0.5 * (values[i - 1] + values[i]));
-  borders.push_back(2 * values.back() - borders.back());
-  return borders;
-}
-
 class Plot {
  public:
   explicit Plot(const Heatmap& map) : map_(map), along_(cell_borders(map.x)), up_(cell_borders(map.y)) {
@@ -173,6 +164,14 @@ class Plot {
 };
 
 }  // namespace
+
+std::vector<double> cell_borders(const std::vector<double>& values) {
+  if (values.size() == 1) return {values.front() - 0.5, values.front() + 0.5};
+  std::vector<double> borders = {1.5 * values[0] - 0.5 * values[1]};
+  for (std::size_t i = 1; i < values.size(); ++i) borders.push_back(0.5 * (values[i - 1] + values[i]));
+  borders.push_back(2 * values.back() - borders.back());
+  return borders;
+}
 
 Picture heatmap_picture(const Heatmap& map) {
   return {Plot(map).shapes(), kTop + kPlotHeight + kBottom};

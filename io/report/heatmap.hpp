@@ -38,6 +38,9 @@ struct Heatmap {
   double at(std::size_t ix, std::size_t iy) const { return values[iy * x.size() + ix]; }
 };
 
+/// Borders of the cells about values in order; the outer cells reach as far out as in.
+std::vector<double> cell_borders(const std::vector<double>& values);
+
 /// The cells with axes and colour scale, without title and caption.
 Picture heatmap_picture(const Heatmap& map);
 

@@ -9,11 +9,13 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
+#include "io/files/share_folder.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/toml_text.hpp"
@@ -61,6 +63,15 @@ std::string plain_value(const toml::node& node) {
 
 std::string nested_value(const toml::node& node) {
   return node.is_string() ? fmt::format("\"{}\"", plain_value(node)) : plain_value(node);
+}
+
+/// The scene at a path from the study's folder; where there is none, the shipped one of that name.
+fs::path scene_at(const fs::path& folder, const fs::path& stated) {
+  fs::path beside = folder / stated;
+  std::error_code ignored;
+  if (fs::exists(beside, ignored)) return beside;
+  fs::path shipped = find_scene(stated);
+  return shipped == stated ? beside : shipped;
 }
 
 class StudyReader {
@@ -121,7 +132,7 @@ class StudyReader {
         else if (key == "title")
           study_.title = *text;
         else
-          study_.scene = path_.parent_path() / *text;
+          study_.scene = scene_at(path_.parent_path(), *text);
       } else if (key == "jobs" || key == "threads") {
         if (!number || *number < 1 || *number > kMostJobs)
           report(name.source(), path,

@@ -40,9 +40,9 @@ struct Study {
 /// The most points of a study.
 inline constexpr std::size_t kMostPoints = 1000;
 
-/// Reads a study; `scene` becomes a path from the working directory. Throws ProblemsError with every problem
-/// of the file itself, or its base InputError. What the scene says of the values is checked by
-/// resolve_scene().
+/// Reads a study; `scene` becomes a path from the working directory, or that of a shipped scene. Throws
+/// ProblemsError with every problem of the file itself, or its base InputError. What the scene says of the
+/// values is checked by resolve_scene().
 Study read_study(const std::filesystem::path& path);
 
 /// Returns true if the text is that of a study rather than of a scene: it has a table [study]. Throws

@@ -81,6 +81,8 @@ TEST_F(CompareCommand, NamesWhatIsWrong) {
   refused((folder() / "histories.csv").string(), "columns; leave the others out");
   EXPECT_EQ(call(fmt::format("compare {} {}", (root_ / "absent").string(), curve().string())), 2);
   EXPECT_TRUE(has(errors(), "there is no folder")) << errors();
+  EXPECT_EQ(call(fmt::format("compare {} {}", root_.string(), curve().string())), 2);
+  EXPECT_TRUE(has(errors(), root_.string() + ": it is no run's folder")) << errors();
 
   const fs::path still = root_ / "static";
   ASSERT_EQ(call(fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\"",

@@ -35,6 +35,8 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
        {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz", "Provenance"})
     EXPECT_TRUE(has(content("report.html"), part)) << part;
   EXPECT_TRUE(has(content("figures/map.svg"), "xmlns"));
+  // Lines of one frequency reach the right border; their labels stand beside it.
+  EXPECT_TRUE(has(content("figures/map.svg"), "x=\"775.0\""));
   // Another call leaves nothing of this one.
   EXPECT_EQ(call(fmt::format("multibody {} -t 1 --quiet --modes 40 --step \"20 us\" -o {}",
                              scene("corrugation-d.toml"), folder_.string()))
@@ -149,6 +151,9 @@ TEST_F(Commands, RoughnessNamesTheBrokenLine) {
   EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n0.003 2\n0.5 2\n").out, "no rows between"));
   EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n").out, "no band of"));
   EXPECT_TRUE(has(answer("# x [m] r [um]\n0 0\n0.001 0\n0.002 0\n").out, "rail.txt: the record is flat"));
+  std::string spike = head;
+  for (int i = 1; i < 300; ++i) spike += fmt::format("{} {}\n", 1e-3 * i, i == 150 ? 101 : 1);
+  EXPECT_TRUE(has(answer(spike).out, "the profile is flat once its spikes (1) are cut off"));
   EXPECT_TRUE(has(answer("").out, "at least two rows"));
   EXPECT_TRUE(has(call("roughness --units m,kg " + file.string()).errors, "--units m,kg: "));
   EXPECT_EQ(call("roughness " + (folder_ / "none.txt").string()).code, 2);

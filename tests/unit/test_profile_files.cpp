@@ -261,6 +261,8 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
        "a.whl:4: \"3\": expected a row of numbers, X in column 1 and Y in column 2"},
       {"a.whl", "Stock=x\n\n" + r, true,
        "a.whl: the points are 71 mm wide; a whole wheel profile has 90 to 200 mm"},
+      {"a.whl", "Stock=x\n\n" + rows(changed(wheel(), 1, 1000, 1)), true,
+       " points beyond the surface are cut, the others are "},
       {"a.whl", "Stock=x\n\n" + rows(changed(rail(), 2, 0, 1)), true,
        "a.whl: no flange of 15 mm or more is found: is it a whole wheel?"},
       {"a.ban", "Xoffset=left\n\n" + r, false, "a.ban:1: Xoffset=left: expected a number"},

@@ -7,6 +7,7 @@
 
 #include "io/report/markup.hpp"
 #include "io/report/report.hpp"
+#include "io/report/thinning.hpp"
 
 namespace tread {
 namespace {
@@ -86,6 +87,12 @@ TEST(Chart, ValuesThatAreNotFiniteBreakTheLine) {
   const std::size_t path = html.rfind("<path class=\"curve c0 solid\"");
   EXPECT_EQ(count(html.substr(path, html.find("/>", path) - path), "M"), 2U);
   EXPECT_EQ(count(html, "nan"), 0U);
+}
+
+TEST(Chart, LonePointsAreDots) {
+  EXPECT_EQ(count(figure_html(one_curve({1}, {3})), "h0\""), 1U);
+  EXPECT_EQ(count(figure_html(one_curve({0, 1, 2}, {0, std::nan(""), 1})), "h0"), 2U);
+  EXPECT_EQ(count(figure_html(one_curve({0, 1}, {0, 1})), "h0"), 0U);
 }
 
 TEST(Chart, EmptyAndConstantCurvesAreDrawn) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/studies/study/study_plan.hpp"
 #include "io/scene/study_reader.hpp"
 #include "tests/program.hpp"
 
@@ -128,6 +129,27 @@ TEST_F(StudyReader, RefusesWithPlaceAndReason) {
            {"[[study]]\nscene = \"s\"\n", "study: expected the table [study]"},
        })
     EXPECT_TRUE(samples::has(refusal(text), part)) << text << "\n" << refusal(text);
+}
+
+TEST_F(StudyReader, TakesShippedScenesWhereTheFolderHasNone) {
+  const std::string text = "[study]\nscene = \"tyre\"\n[grid]\nmotion.speed = [\"1 m/s\"]\n";
+  EXPECT_EQ(read(text).scene.filename(), "tyre.toml");
+  program_.write("tyre", "");
+  EXPECT_EQ(read(text).scene, program_.folder / "tyre");
+}
+
+/// The study sets one key of a table whose other keys are missing.
+TEST_F(StudyReader, MissingKeysArePlacedAtTheirTable) {
+  const Study study = read(
+      "[study]\nscene = \"bar-wave\"\n[set]\nmaterial.tin.density = \"7290 kg/m3\"\n[grid]\npulse.velocity = "
+      "[\"1 m/s\"]\n");
+  try {
+    plan_study(study, "");
+    FAIL() << "no problem";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(samples::has(error.what(), "study.toml:4:")) << error.what();
+    EXPECT_FALSE(samples::has(error.what(), "--set:")) << error.what();
+  }
 }
 
 TEST_F(StudyReader, RefusesTooManyPoints) {

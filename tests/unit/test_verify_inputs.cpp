@@ -43,6 +43,14 @@ TEST(VerifyInputs, ThatTheModelCannotShowAreRefused) {
       "the finite elements do not have; state a longer wavelength or a smaller depth or load");
 }
 
+TEST(VerifyInputs, BeyondTheirRangeAreRefusedWithTheRange) {
+  EXPECT_EQ(refusal("ring_modes", {"thickness=20 mm", "element_size=10 mm"}),
+            "verify: thickness = 20 mm must lie between 33.3 mm, for which the elements of 10 mm are small "
+            "enough, and 258 mm, 0.6 of the radius");
+  EXPECT_EQ(refusal("ring_modes", {"thickness=2 m"}),
+            "--set thickness = 2 m: the ring's thickness must lie between 1 mm and 1000 mm");
+}
+
 TEST(VerifyInputs, ThatMakeTheReferenceZeroAreRefused) {
   EXPECT_EQ(refusal("carter", {"exploitation=0"}), "verify: exploitation is zero: no traction to compare");
   EXPECT_EQ(refusal("steady_rolling", {"mu=0"}),

@@ -243,8 +243,8 @@ TEST(Multibody, PassingOfFastenings) {
       const MultibodyResult r = run_multibody(model, {});
       EXPECT_NEAR(r.force.mean / model.vehicle.load(), 1, 0.01);
       measured(std::string(name_of(theory)) + ", half range over a span / static",
-               r.passing / model.vehicle.load());
-      return r.passing / model.vehicle.load();
+               r.passing.value() / model.vehicle.load());
+      return r.passing.value() / model.vehicle.load();
     };
     const double sheared = part(BeamTheory::timoshenko);
     EXPECT_NEAR(sheared / wanted, 1, 0.1) << speed;
@@ -253,6 +253,29 @@ TEST(Multibody, PassingOfFastenings) {
     EXPECT_LT(spread, 0.9 * sheared);
     EXPECT_LT(part(BeamTheory::euler), 0.5 * spread);
   }
+}
+
+TEST(Multibody, PassingIsThatOfAWholeSpanWithoutSurfaces) {
+  const auto rolled = [](const std::string& more) {
+    MultibodyModel model = multibody_model(scene(300, more), BeamTheory::euler);
+    model.end = model.corrugation.last();
+    return std::pair(model, run_multibody(model, {20, 20e-6}));
+  };
+  // The span begins before x = 0.
+  const std::string early = std::string(kCorrugationD) + "start = \"60 mm\"\n";
+  const auto [model, r] = rolled(early);
+  const double begin = model.corrugation.first() - model.scene.fastenings->spacing;
+  EXPECT_LT(begin, 0);
+  EXPECT_NEAR(r.samples.front().x, begin, 1.01 * model.speed * r.dt);
+  EXPECT_TRUE(r.passing.has_value());
+  const std::string dip =
+      "[surface.dip]\nkind = \"dip\"\nat = \"-200 mm\"\ndepth = \"0.1 mm\"\nlength = \"100 mm\"\n";
+  EXPECT_FALSE(rolled(early + dip).second.passing.has_value());
+  EXPECT_TRUE(rolled(std::string(kCorrugationD) + dip).second.passing.has_value());
+  // The wheel starts within the span.
+  MultibodyModel late = model;
+  late.start = begin + 0.1;
+  EXPECT_FALSE(run_multibody(late, {20, 20e-6}).passing.has_value());
 }
 
 TEST(Multibody, ShiftFallsWithSpeed) {

@@ -10,11 +10,12 @@ namespace {
 constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the wheel's mean motion
 constexpr int kCreepagePoints = 28;            ///< [paper, section 4.2]
 
-/// Creepage of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed
-/// there is none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper, eq. (3)]
+/// Creepage of a rim at the speed `rim` against an axle at `speed`, over the size of their mean. Without a
+/// rolling speed there is none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper,
+/// eq. (3)]
 double creepage_of(double rim, double speed) {
   const double rolling = 0.5 * (rim + speed);
-  return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
+  return std::abs(rolling) > kLeastSpeed ? (rim - speed) / std::abs(rolling) : 0.0;
 }
 
 }  // namespace

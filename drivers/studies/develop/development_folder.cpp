@@ -13,6 +13,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
+#include "drivers/studies/study/finished_run.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/absolute_path.hpp"
 #include "io/files/hdf5_file.hpp"
@@ -262,6 +263,18 @@ void DevelopmentFolder::roll(int number, const Development* before, Progress& pr
   if (ended.status.state != PointState::done) throw failure(ended.folder, ended.status);
 }
 
+void DevelopmentFolder::say_warnings(int number, const Progress& progress) const {
+  const auto warnings = [&](int passage) {
+    const fs::path summary = run_path(passage) / "summary.json";
+    if (!fs::exists(summary)) return std::vector<std::string>();
+    return warnings_in(read_finished_run(run_path(passage), scene_, "").summary);
+  };
+  const std::vector<std::string> known = number > 0 ? warnings(number - 1) : std::vector<std::string>();
+  for (const std::string& warning : warnings(number))
+    if (std::find(known.begin(), known.end(), warning) == known.end())
+      progress.say(fmt::format("[develop] passage {}: {}", number, warning));
+}
+
 void DevelopmentFolder::keep_profile(int number, const Development& development) const {
   const WornProfile& profile = development.profile;
   write_text_file(profile_path(number), development.rows ? map_table(profile, *development.rows,
@@ -274,6 +287,7 @@ SurfaceWork DevelopmentFolder::pass(int number, const Development* before, Progr
   const bool by_row = scene_.wear->across;
   if (!fs::exists(work_path(number))) {
     roll(number, before, progress);
+    say_warnings(number, progress);
     const Corrugation stretch = corrugation_of(*scene_.corrugation, 0);
     const SurfaceWork work = work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last());
     if (by_row) write_rows(rows_path(number), work.rows);

@@ -29,7 +29,7 @@ class DevelopmentFolder {
 
   /// Work of passage `number` over the profile of `before`, the passages before it (null for passage 0). Runs
   /// the passage unless its work is known. Throws InputError, NumericalError or ResourceError if the passage
-  /// fails, and Interrupted.
+  /// fails, and Interrupted. A warning of the run is said unless the passage before had it.
   SurfaceWork pass(int number, const Development* before, Progress& progress) const;
 
   /// Writes the profile after passage `number`, as a table or map for corrugation.file. The profile after
@@ -45,6 +45,7 @@ class DevelopmentFolder {
   std::filesystem::path rows_path(int number) const;
   std::vector<std::string> overrides(int number, const Development* before) const;
   void roll(int number, const Development* before, Progress& progress) const;
+  void say_warnings(int number, const Progress& progress) const;
 
   RunFolder folder_;
   Scene scene_;

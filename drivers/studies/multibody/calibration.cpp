@@ -118,6 +118,11 @@ TransientRun read_transient_run(const std::filesystem::path& directory, const st
   TransientRun run;
   run.directory = directory;
   require_run_folder(directory);
+  if (!std::filesystem::exists(directory / kKeptScene))
+    throw InputError(
+        fmt::format("{}: it is no run's folder, it has no {}; give the one that `tread run -o` was given, of "
+                    "a study that of one of its runs",
+                    directory.string(), kKeptScene));
   run.scene = read_scene(directory / kKeptScene);
   if (!run.scene.motion)
     throw InputError(

@@ -99,10 +99,11 @@ Heatmap response_heatmap(const MultibodyOutcome& o) {
   const bool lost = std::find(heat.marked.begin(), heat.marked.end(), true) != heat.marked.end();
   if (lost) heat.marked_label = "border of contact loss";
   constexpr int kPoints = 200;
+  const std::vector<double> borders = cell_borders(heat.x);
   for (const double frequency : {400.0, 600.0, 800.0, 1000.0, 1200.0, 1600.0, 2000.0, 3000.0}) {
     HeatLine line{{}, {}, fmt::format("{:.0f} Hz", frequency)};
     for (int i = 0; i <= kPoints; ++i) {
-      const double speed = heat.x.front() + (heat.x.back() - heat.x.front()) * i / kPoints;
+      const double speed = borders.front() + (borders.back() - borders.front()) * i / kPoints;
       line.x.push_back(speed);
       line.y.push_back(1e3 * speed / 3.6 / frequency);
     }
@@ -129,8 +130,8 @@ Chapter passage_chapter(const MultibodyOutcome& o) {
              curve("rail under the wheel", r.samples, &MultibodySample::rail, 1e3, Stroke::dashed)},
             {}, 200));
   chapter.blocks.emplace_back(std::move(motion));
-  Figure far =
-      over_the_way("way", "Vertical force from x = 0 on", o.model, {r.samples.front().x, r.samples.back().x});
+  Figure far = over_the_way("way", "Vertical force over the whole way", o.model,
+                            {r.samples.front().x, r.samples.back().x});
   far.panels.push_back(
       panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 180));
   chapter.blocks.emplace_back(std::move(far));

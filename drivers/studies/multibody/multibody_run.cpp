@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "core/error.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
@@ -48,21 +49,44 @@ double shortest_wave(const Scene& scene) {
   return shortest;
 }
 
+/// Last fastening span before the corrugation, on a smooth rail of the evaluated stretch; none where the
+/// wheel starts within it.
+std::optional<Span> passing_span(const MultibodyModel& model) {
+  const double last = model.corrugation.smooth() ? evaluated_stretch(model.scene, model.corrugation).last
+                                                 : model.corrugation.first();
+  const double first = last - model.scene.fastenings->spacing;
+  return first < model.start ? std::nullopt : std::optional(Span{first, last});
+}
+
+/// Half the range of F_N over passing_span() [N]; none where surfaces lift or lower the wheel there.
+std::optional<double> passing_half_range(const MultibodyModel& model,
+                                         const std::vector<MultibodySample>& samples) {
+  const std::optional<Span> span = passing_span(model);
+  if (!span) return std::nullopt;
+  const auto inside = [&](const MultibodySample& s) { return s.x >= span->first && s.x < span->last; };
+  const auto off_line = [&](const MultibodySample& s) { return inside(s) && s.roughness != 0; };
+  if (std::any_of(samples.begin(), samples.end(), off_line)) return std::nullopt;
+  return 0.5 * statistics(samples, inside, [](const MultibodySample& s) { return s.force; }).range();
+}
+
+/// Place from which a passage is sampled [m].
+double sampled_from(const MultibodyModel& model) {
+  const double start = std::min(0.0, model.scene.start_x());
+  const std::optional<Span> span = passing_span(model);
+  return span ? std::min(start, span->first) : start;
+}
+
 void evaluate(const MultibodyModel& model, MultibodyResult& r) {
   const Span stretch = evaluated_stretch(model.scene, model.corrugation);
   r.evaluated_first = stretch.first;
   r.evaluated_last = stretch.last;
-  const auto between = [](double first, double last) {
-    return [first, last](const MultibodySample& s) { return s.x >= first && s.x <= last; };
+  const auto evaluated = [&](const MultibodySample& s) {
+    return s.x >= stretch.first && s.x <= stretch.last;
   };
-  const auto force = [](const MultibodySample& s) { return s.force; };
-  const auto evaluated = between(stretch.first, stretch.last);
-  r.force = statistics(r.samples, evaluated, force);
+  r.force = statistics(r.samples, evaluated, [](const MultibodySample& s) { return s.force; });
   r.loss_of_contact =
       statistics(r.samples, evaluated, [](const MultibodySample& s) { return s.force > 0 ? 0.0 : 1.0; }).mean;
-  const double before = model.corrugation.smooth() ? stretch.last : model.corrugation.first();
-  r.passing =
-      0.5 * statistics(r.samples, between(before - model.scene.fastenings->spacing, before), force).range();
+  r.passing = passing_half_range(model, r.samples);
   if (const double wave = wavelength_of(model); wave > 0) {
     std::vector<double> x, f;
     for (const MultibodySample& s : r.samples) {
@@ -116,9 +140,10 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
   const ModalWheel wheel = model.wheel_at(model.speed);
   r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt, wheel).rail();
   ModalPassage passage(track, model.vehicle, model.start, r.dt, wheel);
+  const double first = sampled_from(model);
   roll(passage, model, model.speed, model.end, [&](double x, double roughness) {
     ++r.steps;
-    if (x >= std::min(0.0, model.scene.start_x()))
+    if (x >= first)
       r.samples.push_back(
           {passage.time(), x, passage.force(), passage.wheel(), passage.rail(), passage.sprung(), roughness});
   });

@@ -35,7 +35,7 @@ struct MultibodyStep {
 };
 
 struct MultibodyResult {
-  std::vector<MultibodySample> samples;  ///< samples of every step from x = 0 on
+  std::vector<MultibodySample> samples;  ///< samples of every step from x = 0 or `passing`'s span on
   double dt = 0;                         ///< [s]
   int modes = 0;
   std::int64_t steps = 0;
@@ -43,7 +43,9 @@ struct MultibodyResult {
   double evaluated_first = 0, evaluated_last = 0;  ///< evaluated stretch of `force` [m]
   Statistics force;                                ///< [N]
   double loss_of_contact = 0;                      ///< share of the stretch without contact [-]
-  double passing = 0;            ///< half the range of F_N over the last span before the corrugation [N]
+  /// Half the range of F_N over the last fastening span before the corrugation [N]; absent where the wheel
+  /// starts within that span or surfaces lift or lower it there.
+  std::optional<double> passing;
   std::vector<CrestPeak> peaks;  ///< peaks of a sine's crests between its first and its last
 };
 

@@ -79,8 +79,9 @@ Table multibody_table(const MultibodyOutcome& o) {
   add("Smallest F_N", readable(1e-3 * r.force.min), "kN");
   add("Static F_N", readable(1e-3 * m.vehicle.load()), "kN");
   add("Way without contact", readable(100 * r.loss_of_contact, 3), "%", "of the same stretch");
-  add("Half range of F_N over a fastening span / static", readable(100 * r.passing / m.vehicle.load(), 3),
-      "%", m.corrugation.smooth() ? "last span" : "last span before the corrugation");
+  if (r.passing)
+    add("Half range of F_N over a fastening span / static", readable(100 * *r.passing / m.vehicle.load(), 3),
+        "%", m.corrugation.smooth() ? "last span" : "last span before the corrugation");
   if (!r.peaks.empty()) {
     add("F_N's peak before the first crest", in_pi(r.peaks.front().shift), "pi",
         "a wavelength is 2 pi; the crest a wave behind the corrugation's start");
@@ -142,7 +143,7 @@ std::string multibody_json(const MultibodyOutcome& o) {
   json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
   json["vertical_force_N"] = statistics_json(r.force);
   json["loss_of_contact_share"] = r.loss_of_contact;
-  json["passing_half_range_N"] = r.passing;
+  if (r.passing) json["passing_half_range_N"] = *r.passing;
   json["crests"] = Json::array();
   for (const CrestPeak& p : r.peaks)
     json["crests"].push_back({{"crest_x_m", p.crest},

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -144,20 +146,28 @@ TableRules rules_of(const RoughnessOptions& options) {
   return rules;
 }
 
+bool is_flat(const std::vector<double>& heights) {
+  return std::adjacent_find(heights.begin(), heights.end(), std::not_equal_to<>()) == heights.end();
+}
+
 Outcome processed(const RoughnessOptions& options) {
   Outcome o;
   TwoColumns rows = read_two_columns(options.file, rules_of(options));
-  const auto [lowest, highest] = std::minmax_element(rows.second.begin(), rows.second.end());
-  if (lowest != rows.second.end() && *lowest == *highest)
+  if (!rows.second.empty() && is_flat(rows.second))
     throw InputError(fmt::format(
         "{}: the record is flat, all heights are {:.6g} um, so it has no levels; is it the column "
         "of the height, and has the file its digits?",
-        options.file.string(), 1e6 * *lowest));
+        options.file.string(), 1e6 * rows.second.front()));
   if (options.depth)
     for (double& value : rows.second) value = -value;
   o.profile = even_profile(rows, options.file.string());
   if (!options.raw) {
     o.spikes = remove_spikes(o.profile);
+    if (is_flat(o.profile.height))
+      throw InputError(fmt::format(
+          "{}: the profile is flat once its spikes ({}) are cut off, so it has no levels; state --raw "
+          "to keep them, or measure again",
+          options.file.string(), o.spikes));
     o.pits = close_pits(o.profile);
   }
   const double segment = parse_option("--segment", options.segment, kLength);

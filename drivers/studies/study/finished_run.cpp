@@ -59,6 +59,25 @@ void require_sound_results(const FinishedRun& run) {
   }
 }
 
+std::vector<std::string> warnings_in(const JsonRecord& summary) {
+  std::vector<std::string> texts;
+  const auto next = [&] { return text_in(summary, fmt::format("warnings.{}", texts.size())); };
+  for (std::string text = next(); !text.empty(); text = next()) texts.push_back(std::move(text));
+  return texts;
+}
+
+std::vector<SharedWarning> shared_warnings(const std::vector<FinishedRun>& runs) {
+  std::vector<SharedWarning> all;
+  for (const FinishedRun& run : runs)
+    for (const std::string& text : warnings_in(run.summary)) {
+      auto known = std::find_if(all.begin(), all.end(),
+                                [&](const SharedWarning& warning) { return warning.text == text; });
+      if (known == all.end()) known = all.insert(known, SharedWarning{text, {}});
+      known->labels.push_back(run.label);
+    }
+  return all;
+}
+
 const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label) {
   const auto found =
       std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) { return run.label == label; });
@@ -108,6 +127,8 @@ const std::vector<ResultColumn>& result_columns() {
       {"axis_cell_work_min", "J", "surface.axis_frictional_work_J_in_1.1_mm_cell.min", ""},
       {"axis_cell_work_range", "J", "surface.axis_frictional_work_range_J_in_1.1_mm_cell", "Work, range [mJ]",
        1e3},
+      {"evaluated_first", "m", "evaluated_x_m.0", ""},
+      {"evaluated_last", "m", "evaluated_x_m.1", ""},
       {"frictional_work", "J", "frictional_work_J", ""},
       {"energy_error", "-", "energy_error", ""},
       {"elements", "-", "elements", ""},

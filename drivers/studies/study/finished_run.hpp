@@ -35,6 +35,18 @@ FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& 
 /// place of one, or where the run's histories do not open.
 void require_sound_results(const FinishedRun& run);
 
+/// Warnings that a summary states.
+std::vector<std::string> warnings_in(const JsonRecord& summary);
+
+/// A warning, and the runs that have it.
+struct SharedWarning {
+  std::string text;
+  std::vector<std::string> labels;
+};
+
+/// Distinct warnings of the runs in order of appearance.
+std::vector<SharedWarning> shared_warnings(const std::vector<FinishedRun>& runs);
+
 /// First run of that label; nullptr if there is none.
 const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label);
 

@@ -18,6 +18,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/study/job_array.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
+#include "drivers/studies/study/study_report.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/plain_text.hpp"
@@ -179,14 +180,36 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
     return Interrupted(fmt::format("stopped by {}; nothing is lost: `{}` goes on with {} points", stopped_by,
                                    resume_command, left));
   if (failed > 0)
-    return Error(plan.failure_code(),
-                 fmt::format("{} of {} points failed:{}\n`{}{}` tries them again", failed, plan.points.size(),
-                             failures, resume_command, options.retry ? "" : " --retry"));
+    return Error(
+        plan.failure_code(),
+        fmt::format("{} of {} points failed:{}{}\n`{}{}` tries them again", failed, plan.points.size(),
+                    failures,
+                    left > 0 ? fmt::format("\n{} of {} points are not done", left, plan.points.size()) : "",
+                    resume_command, options.retry ? "" : " --retry"));
   if (left > 0)
     return Interrupted(fmt::format("{} points are not done ({}); `{}` goes on", left,
                                    options.quiet ? "see log.txt in their folders" : "see the log above",
                                    resume_command));
   return std::nullopt;
+}
+
+/// The runs' warnings, each once; empty if there is none.
+std::string warning_text(const std::vector<FinishedRun>& runs) {
+  constexpr std::size_t kMostShown = 5;
+  const std::vector<SharedWarning> warnings = shared_warnings(runs);
+  if (warnings.empty()) return "";
+  const auto warned =
+      std::ranges::count_if(runs, [](const FinishedRun& run) { return !warnings_in(run.summary).empty(); });
+  std::string text = fmt::format("{} of {} finished points have warnings:", warned, runs.size());
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostShown); ++i) {
+    const auto& [sentence, labels] = warnings[i];
+    const std::string others = labels.size() > 1 ? fmt::format(" and {} more", labels.size() - 1) : "";
+    text += fmt::format("\n  {}{}: {}", labels.front(), others, sentence);
+  }
+  if (warnings.size() > kMostShown)
+    text += fmt::format("\n  {} more: see report.html in the folders of the points",
+                        warnings.size() - kMostShown);
+  return text;
 }
 
 /// The command of a command line: "paper" of "tread paper -o out".
@@ -261,6 +284,8 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
   leave(plan);
+  if (const std::string warnings = warning_text(finished_runs(plan)); !warnings.empty())
+    progress.say(fmt::format("[{}] {}", command, warnings));
   return shortfall(plan, stopped_by, resume_command, options);
 }
 

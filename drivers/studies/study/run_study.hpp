@@ -34,9 +34,9 @@ struct StudyOptions {
 void add_overrides(Study& study, const StudyOptions& options);
 
 /// Checks the whole study, prints its cost, runs the points that are not done and calls `leave` with the plan
-/// for the folder's results. With options.list it ends before the runs. Throws errors of the study before
-/// anything runs. Returns the error of points that did not come to their end: resumable if the study or a run
-/// was stopped, with the first failed point's code if one failed.
+/// for the folder's results. The end names the runs' warnings. With options.list it ends before the runs.
+/// Throws errors of the study before anything runs. Returns the error of points that did not come to their
+/// end: resumable if the study or a run was stopped, with the first failed point's code if one failed.
 std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                const std::function<void(const StudyPlan&)>& leave);
 

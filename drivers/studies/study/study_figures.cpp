@@ -77,6 +77,12 @@ double even_step(double length, int most) {
   return 10 * decade;
 }
 
+/// Stroke that tells mean, smallest and largest values of a group apart.
+Stroke stroke_of(const std::string& label) {
+  if (label.find("mean") != std::string::npos) return Stroke::solid;
+  return label.find("smallest") != std::string::npos ? Stroke::dotted : Stroke::dashed;
+}
+
 std::vector<double> abscissae(const std::vector<const Series*>& all, const Figure& figure) {
   bool same = true;
   Range range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -145,19 +151,20 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
                      [](const TrendRun& a, const TrendRun& b) { return a.x < b.x; });
   for (const TrendPanel& wanted : panels) {
     std::vector<Series> curves;
-    for (const auto& [name, group] : groups)
+    int colour = -1;
+    for (const auto& [name, group] : groups) {
+      ++colour;
       for (const auto& [label, path] : wanted.curves) {
-        const bool inner = label.find("mean") != std::string::npos;
-        Series series{label, {}, {}, inner ? Stroke::solid : Stroke::dashed};
+        Series series{label, {}, {}, stroke_of(label), colour};
         if (!name.empty()) series.label += fmt::format(", {}", name);
         for (const TrendRun& run : group)
           if (const auto value = run.run->number(path)) {
             series.x.push_back(run.x);
             series.y.push_back(wanted.scale * *value);
           }
-        series.colour = static_cast<int>(curves.size());
         if (!series.x.empty()) curves.push_back(std::move(series));
       }
+    }
     if (!curves.empty()) figure.panels.push_back(panel(wanted.y_label, std::move(curves), {}, 180));
   }
   return figure;

@@ -48,7 +48,8 @@ struct TrendRun {
   std::string group = {};
 };
 
-/// Results such as mean, largest and smallest values against a quantity in which the runs differ.
+/// Results such as mean, largest and smallest values against a quantity in which the runs differ: a colour a
+/// group, a stroke a result.
 Figure trend_figure(std::string title, std::string x_label, const std::vector<TrendPanel>& panels,
                     const std::vector<TrendRun>& runs);
 

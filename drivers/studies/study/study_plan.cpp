@@ -26,9 +26,11 @@ namespace tread {
 
 namespace {
 
-/// Returns true if a key's path is `table` or leads into it.
-bool lies_in(const std::string& path, const std::string& table) {
-  return path == table || path.starts_with(table + ".");
+/// Number of parts with which both paths begin: 1 for "motion.speed" and "motion.duration".
+std::ptrdiff_t shared_parts(const std::string& a, const std::string& b) {
+  const std::string first = a + ".", second = b + ".";
+  const auto apart = std::mismatch(first.begin(), first.end(), second.begin(), second.end()).first;
+  return std::count(first.begin(), apart, '.');
 }
 
 /// Problems of many points, each reported once: with the first point that has it unless all have it.
@@ -38,15 +40,10 @@ class PointProblems {
 
   void add(const PlannedPoint& point, const Problem& problem) {
     Problem placed = problem;
-    const auto place = [&](const std::vector<StudySetting>& settings) {
-      for (const StudySetting& s : settings)
-        if (s.line > 0 && (lies_in(s.key, problem.key) || lies_in(problem.key, s.key)))
-          std::tie(placed.file, placed.line, placed.column) = std::tie(study_.name, s.line, s.column);
-    };
-    if (problem.file == "--set") {
-      place(study_.common);
-      place(point.varied);
-    }
+    const StudySetting* nearest = problem.file == "--set" ? nearest_setting(point, problem.key) : nullptr;
+    if (nearest && nearest->line > 0)
+      std::tie(placed.file, placed.line, placed.column) =
+          std::tie(study_.name, nearest->line, nearest->column);
     const auto identity =
         std::make_tuple(placed.file, placed.line, placed.column, placed.key, placed.message);
     Told& told = told_[identity];
@@ -65,6 +62,15 @@ class PointProblems {
   }
 
  private:
+  /// The setting with the longest common path, of equals the last; nullptr if there is none.
+  const StudySetting* nearest_setting(const PlannedPoint& point, const std::string& key) const {
+    const StudySetting* nearest = nullptr;
+    for (const auto* settings : {&study_.common, &point.varied})
+      for (const StudySetting& setting : *settings)
+        if (!nearest || shared_parts(setting.key, key) >= shared_parts(nearest->key, key)) nearest = &setting;
+    return nearest;
+  }
+
   struct Told {
     Problem problem;
     std::string point;

@@ -213,6 +213,13 @@ Table point_table(const StudyPlan& plan) {
   return table;
 }
 
+Table warning_table(const std::vector<FinishedRun>& runs) {
+  Table table{"Warnings", {{.title = "Point", .plain = true}, {"Warning"}}, {}};
+  for (const SharedWarning& warning : shared_warnings(runs))
+    table.rows.push_back({fmt::format("{}", fmt::join(warning.labels, "; ")), warning.text});
+  return table;
+}
+
 Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
                     const Provenance& provenance) {
   Report report;
@@ -231,7 +238,10 @@ Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(rolled),
                [](const FinishedRun& run) { return run.rolled(); });
   if (!rolled.empty()) report.chapters.push_back(curve_chapter(rolled));
-  report.chapters.push_back({"Points", {point_table(plan)}});
+  Chapter points{"Points", {point_table(plan)}};
+  if (Table warnings = warning_table(runs); !warnings.rows.empty())
+    points.blocks.emplace_back(std::move(warnings));
+  report.chapters.push_back(std::move(points));
   state_provenance(report, plan.study.scene.string(), provenance);
   return report;
 }

@@ -26,6 +26,9 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
 /// The table of sweep_csv() as JSON.
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
+/// Distinct warnings of the runs, with the points that have them.
+Table warning_table(const std::vector<FinishedRun>& runs);
+
 /// Headline results of the runs for readers.
 Table result_table(const std::vector<FinishedRun>& runs);
 
