@@ -246,10 +246,11 @@ void require_contact(const Model& model, int iteration, double residual, double 
   if (!model.contact || !model.contact->points().empty()) return;
   throw NumericalError(
       iteration == 0
-          ? fmt::format("preload: no integration point of the rail touches the wheel; check "
-                        "wheel.lateral_offset, and state a scene.element_size below {:.3g} mm, or a wheel "
-                        "load above {:.3g} N, if the patch is smaller than an element{}",
-                        1e3 * model.sizes.contact, model.wheel_load(), apart_by_depths(model.scene))
+          ? fmt::format(
+                "preload: no integration point of the rail touches the wheel; check "
+                "wheel.lateral_offset; if the patch under the wheel load of {1:.3g} N is smaller than an "
+                "element, state a scene.element_size below {0:.3g} mm or a larger load{2}",
+                1e3 * model.sizes.contact, model.wheel_load(), apart_by_depths(model.scene))
           : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}", iteration,
                         why_unbalanced(model, residual, size)));
 }

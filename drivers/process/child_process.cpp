@@ -23,7 +23,10 @@ constexpr int kNotStarted = 127;
 /// blocked.
 [[noreturn]] void become(char* const* arguments, bool launched, const char* log, pid_t parent,
                          const sigset_t& mask) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  // A checkpoint asked for before the program has its handler must not end it; a launcher may have its own
+  // use.
+  ::signal(SIGUSR1, launched ? SIG_DFL : SIG_IGN);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(kNotStarted);

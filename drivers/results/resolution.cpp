@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/geometry/point_scatter.hpp"
+#include "drivers/engine/body_point.hpp"
 #include "drivers/engine/lateral_gap.hpp"
 #include "drivers/results/depth_warnings.hpp"
 #include "drivers/results/way_warnings.hpp"
@@ -120,6 +122,21 @@ std::string hammer_warning(const Model& model) {
       1e3 * blow, blow / interval, kSamplesOfBlow, 1e3 * blow / (kSamplesOfBlow + 1));
 }
 
+/// Sentence where the histories of stress have no column: no element's middle lies as high.
+std::string stress_depth_warning(const Model& model) {
+  const std::optional<double>& deepest = model.scene.output.stress_depth;
+  if (!deepest) return "";
+  const SurfacePair& surfaces = model.contact->surfaces();
+  const double y = lateral_gap(surfaces.rail_profile(), surfaces.wheel_profile()).lowest;
+  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
+  const std::vector<QuadBelow> quads = quads_below(model.mesh, model.index.rail(), {y, kAnyDepth});
+  if (quads.empty() || quads.front().depth <= *deepest) return "";
+  return fmt::format(
+      "output.stress_depth = {:.4g} mm adds no stress to the histories: the middle of the first element lies "
+      "deeper; state at least {:g} mm, or a smaller scene.element_size",
+      1e3 * *deepest, std::ceil(1e5 * quads.front().depth) / 100);
+}
+
 void add_contact_warnings(const Model& model, std::vector<std::string>& warnings) {
   const WheelSpec& wheel = *model.scene.wheel;
   const RailSpec& rail = *model.scene.rail;
@@ -128,6 +145,7 @@ void add_contact_warnings(const Model& model, std::vector<std::string>& warnings
   warnings.push_back(head_warning(model.scene));
   warnings.push_back(patch_warning(model));
   warnings.push_back(edge_warning(model));
+  warnings.push_back(stress_depth_warning(model));
   add_way_warnings(model.scene, warnings);
   add_depth_warnings(model, warnings);
 }

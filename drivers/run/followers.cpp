@@ -13,6 +13,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/memory_need.hpp"
+#include "drivers/run/preload_cache.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/run_model.hpp"
 #include "io/report/plain_text.hpp"
@@ -87,11 +88,15 @@ const std::string kThreads = "ranks/threads";
 const std::string kBackend = "ranks/backend";
 const std::string kBound = "ranks/bound";
 const std::string kShares = "ranks/shares";
+const std::string kProgram = "ranks/program";  ///< program_hash()
 
 /// The run of rank 0 on this rank.
 class FollowedRun {
  public:
   FollowedRun(const SealedContent& content, Ranks& ranks) : ranks_(&ranks) {
+    if (sealed_value<std::int64_t>(content, kProgram) != static_cast<std::int64_t>(program_hash()))
+      throw ResourceError(
+          "this program has other bytes than that of rank 0; start all ranks with the same program");
     ranks.shares = sealed_entry<std::vector<double>>(content, kShares);
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
                  sealed_entry<std::string>(content, kBackend),
@@ -178,6 +183,7 @@ void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOpt
   run[kBackend] = threads.backend;
   run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
   run[kShares] = ranks_->shares;
+  run[kProgram] = std::vector<std::int64_t>{static_cast<std::int64_t>(program_hash())};
   send(*ranks_, std::move(run));
   simulation.spread();
   begin_seconds_ = clock_.passed();

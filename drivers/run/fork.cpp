@@ -206,6 +206,19 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
   return fork;
 }
 
+/// Option of the newest earlier state that the run there keeps for good, in brackets; empty: none.
+std::string kept_state_text(const Fork& fork) {
+  const ForkOrigin& origin = *fork.order.origin;
+  std::vector<std::string> refused;
+  const std::optional<Found> kept = CheckpointFolder(fs::path(origin.folder) / kForkFolder)
+                                        .newest(refused, require_state, origin.steps - 1);
+  if (!kept) return "";
+  // Half a step later: the digits must not round to an earlier step.
+  const double time =
+      sealed_value<double>(fork.content, "results/dt") * (static_cast<double>(kept->steps) + 0.5);
+  return fmt::format(" (--from {}@{:.9g}ms has a state kept for forks)", origin.folder, 1e3 * time);
+}
+
 void require_same_past(const Fork& fork, const Model& model) {
   constexpr double kSame = 1e-9;  // [m]
   const Corrugation& here = model.contact->corrugation();
@@ -217,11 +230,11 @@ void require_same_past(const Fork& fork, const Model& model) {
   const double reached = wheel_frame.at(0) + model.contact->reach();
   const std::optional<double> differs = first_difference(here, there, reached, kSame);
   if (!differs) return;
-  throw InputError(
-      fmt::format("--from {}: at t = {:.6g} ms the patch may reach x = {:.4f} m, but the corrugations differ "
-                  "by more than 1 nm "
-                  "from x = {:.4f} m on; fork at an earlier time, or let the corrugation begin later",
-                  fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs));
+  throw InputError(fmt::format(
+      "--from {}: at t = {:.6g} ms the patch may reach x = {:.4f} m, but the corrugations differ "
+      "by more than 1 nm "
+      "from x = {:.4f} m on; fork at an earlier time{}, or let the corrugation begin later",
+      fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs, kept_state_text(fork)));
 }
 
 double Approach::time(const MotionSpec& motion, double x) const {

@@ -69,14 +69,6 @@ std::int64_t limit() {
   }
 }
 
-/// Hash of the running program's own bytes: another build may find other bits.
-std::uint64_t program_hash() {
-  const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
-  Hash hash;
-  hash.add(std::as_bytes(std::span(program)));
-  return hash.value();
-}
-
 StateList fields_of(Preload& preload) {
   StateList list;
   preload.list_state(list);
@@ -166,6 +158,13 @@ void keep_preload(const ContentCache& cache, const std::string& key, FoundPreloa
 }
 
 }  // namespace
+
+std::uint64_t program_hash() {
+  const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
+  Hash hash;
+  hash.add(std::as_bytes(std::span(program)));
+  return hash.value();
+}
 
 std::optional<ContentCache> preload_cache(const std::string& place) {
   const std::string stated = place.empty() ? environment("TREAD_CACHE") : place;

@@ -204,7 +204,6 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
 
 /// Removes results of an earlier run: files of a finished run must not stand beside one that is not.
 void remove_results(const std::filesystem::path& directory) {
-  CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
   for (const char* name :
        {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv", "run.h5",
@@ -297,7 +296,7 @@ void take_machine(const RunOptions& options) {
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
   if (options.output.empty()) options.output = dated_folder(resolved.source.name);
-  require_folder_of(options.output, "run");
+  const bool holds_run = require_folder_of(options.output, "run");
   take_machine(options);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
@@ -308,7 +307,8 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   session.resolved = fork ? resolve_with_later(session.order) : resolved;
   refuse_to_overwrite(session, fork ? &*fork : nullptr);
   session.checkpoints.clear();
-  remove_results(session.folder.path());
+  CheckpointFolder(session.folder / kForkFolder).clear();
+  if (holds_run) remove_results(session.folder.path());
   if (!fork) session.checkpoints.write_order(pack_order(session.order));
   showing_failure(session,
                   [&] { carry_out(session, fork ? &fork->content : nullptr, fork ? &*fork : nullptr); });

@@ -63,6 +63,15 @@ bool has_neighbours(const fs::path& path) {
   return !is_pipe_or_device(path) && standard_file(path) < 0;
 }
 
+void require_other_file(const fs::path& output, const fs::path& input) {
+  std::error_code error;
+  if (fs::is_regular_file(output, error) && fs::equivalent(output, input, error))
+    throw InputError(
+        fmt::format("the output {} would replace the input {}, which is the same file; choose another name "
+                    "or folder for the output",
+                    output.string(), input.string()));
+}
+
 void write_named_file(const fs::path& path, const std::function<void(const fs::path& part)>& write) {
   std::fflush(stdout);  // before what goes to the same place
   if (is_pipe_or_device(path)) return write(path);

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "core/error.hpp"
@@ -14,6 +16,20 @@ namespace tread {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Last line of a picture that tread writes: a copy under another name is the user's.
+std::string mark_of(const std::string& name) {
+  return fmt::format("\n<!-- figure {} of a report of tread -->\n", name);
+}
+
+/// Returns true if write_figures() wrote the picture under its name.
+bool is_written_here(const fs::path& picture) {
+  const std::string mark = mark_of(picture.stem());
+  std::ifstream file(picture, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(mark.size()), std::ios::end);
+  std::string end(mark.size(), '\0');
+  return file.read(end.data(), std::ssize(end)) && end == mark;
+}
 
 struct FigureFiles {
   std::string name;
@@ -55,7 +71,7 @@ void write_figures(const fs::path& folder, const Report& report) {
       const auto files = std::visit([](const auto& content) { return named_files(content); }, block);
       if (!files) continue;
       create_folder(folder);
-      write_text_file(folder / (files->name + ".svg"), files->svg);
+      write_text_file(folder / (files->name + ".svg"), files->svg + mark_of(files->name));
       write_text_file(folder / (files->name + ".csv"), files->csv);
     }
 }
@@ -69,7 +85,8 @@ std::vector<std::string> figures_in(const fs::path& folder) {
   std::error_code error;
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".svg") names.push_back(entry.path().stem());
+    if (entry.path().extension() == ".svg" && is_written_here(entry.path()))
+      names.push_back(entry.path().stem());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -20,7 +20,8 @@ void write_figures(const std::filesystem::path& folder, const Report& report);
 /// file stays until the new one is complete.
 void write_report(const std::filesystem::path& path, const Report& report);
 
-/// Names of the figures in the folder, without ending, in alphabetical order. Empty if there is no folder.
+/// Names of the figures that write_figures() has left in the folder, without ending, in alphabetical order.
+/// Empty if there is no folder.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
 
 /// Removes the files of these figures, and the folder if nothing else is in it.

@@ -20,9 +20,28 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+std::size_t utf8_bytes(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  if (at >= text.size()) return 0;
+  const unsigned first = byte(at), second = byte(at + 1);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  // Longer forms than necessary, surrogates and characters beyond U+10FFFF are none.
+  if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
+  if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  for (std::size_t i = 1; i < bytes; ++i)
+    if ((byte(at + i) & 0xC0U) != 0x80) return 0;
+  return bytes;
+}
+
 std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = utf8_bytes(text, at);
+    if (bytes == 0) text[at] = '?';
+    if (static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7f) text[at] = ' ';
+    at += std::max<std::size_t>(bytes, 1);
+  }
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Small operations on text.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,10 @@ std::string_view trimmed(std::string_view text);
 /// Lower-case copy of ASCII text.
 std::string lower_case(std::string_view text);
 
-/// The text on one line: blanks in place of control characters.
+/// Bytes of the UTF-8 character that begins at `at`; 0 where none does.
+std::size_t utf8_bytes(std::string_view text, std::size_t at);
+
+/// The text on one line: blanks in place of control characters, "?" in place of bytes that are not UTF-8.
 std::string one_line(std::string text);
 
 /// A cell of a CSV file, quoted if necessary.

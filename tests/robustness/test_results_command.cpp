@@ -102,9 +102,12 @@ TEST_F(ResultsCommand, FiguresOfTheReportAreFiles) {
        {"deflection", "mesh-sections", "mesh-side", "patch-instants", "patch-movie", "stick-slip"})
     EXPECT_TRUE(has(listed, name) && fs::exists(figures / (std::string(name) + ".csv"))) << listed;
   ASSERT_EQ(call(run("again")), 0) << errors();
-  std::ofstream(folder("again") / "figures/old.svg") << "of the former run";
+  std::ofstream(folder("again") / "figures/old.svg")
+      << "<svg></svg>\n<!-- figure old of a report of tread -->\n";
+  std::ofstream(folder("again") / "figures/mine.svg") << "mine";
   ASSERT_EQ(call(run("again", "--overwrite")), 0) << errors();
   EXPECT_FALSE(fs::exists(folder("again") / "figures/old.svg"));
+  EXPECT_EQ(content_of(folder("again") / "figures/mine.svg"), "mine");
 }
 
 /// Every file that a run leaves is listed, and the page of results names it.

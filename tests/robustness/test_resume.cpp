@@ -102,8 +102,12 @@ TEST_F(Resume, SigkillLosesWhatFollowedTheLastCheckpoint) {
 
 TEST_F(Resume, ARunWhoseFolderIsRemovedLacksAResource) {
   const pid_t process = start_rolling();
-  ::kill(process, SIGSTOP);  // else it writes into the folder while that is removed
-  fs::remove_all(folder_);
+  ::kill(process, SIGSTOP);     // else it writes into the folder while that is removed
+  ASSERT_TRUE(wait_until([&] {  // it may end a write before it stops
+    std::error_code busy;
+    fs::remove_all(folder_, busy);
+    return !fs::exists(folder_);
+  }));
   ::kill(process, SIGUSR1);
   ::kill(process, SIGCONT);
   EXPECT_EQ(wait_for(process), 4) << errors();

@@ -20,6 +20,9 @@ using samples::has;
 using samples::Outcome;
 
 TEST_F(Commands, MultibodyLeavesItsFiles) {
+  fs::create_directory(folder_ / "figures");
+  for (const char* foreign : {"figures/mine.svg", "calibration.csv"})
+    std::ofstream(folder_ / foreign) << "mine";
   const Outcome outcome =
       call(fmt::format("multibody {} -t 1 --quiet --json --modes 40 --step \"20 us\" --filter -o {} "
                        "--map speed=250:300:50km/h wavelength=70:80:10mm",
@@ -28,6 +31,7 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
   for (const char* part : {"\"contact_filter_gain\": 0.94",
                            "\"loss_of_contact_share\": ", "\"beam\": \"Euler\"", "\"points\": 4"})
     EXPECT_TRUE(has(outcome.out, part)) << part << outcome.out;
+  EXPECT_EQ(content("calibration.csv"), "mine");
   EXPECT_EQ(outcome.out, content("summary.json"));
   EXPECT_TRUE(content("multibody.csv").starts_with("time [s],wheel_x [m],vertical_force [N],"));
   EXPECT_TRUE(content("map.csv").starts_with("speed [m/s],wavelength [m],"));
@@ -43,6 +47,7 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
                 .code,
             0);
   for (const char* gone : {"map.csv", "figures/map.svg"}) EXPECT_FALSE(fs::exists(folder_ / gone)) << gone;
+  EXPECT_EQ(content("figures/mine.svg"), "mine");
   const Outcome local =
       call(fmt::format("multibody {} -t 1 --quiet --json --beam solid --wheel modal --contact "
                        "half-space",
@@ -125,6 +130,21 @@ TEST_F(Commands, RoughnessReadsJudgesAndWrites) {
   EXPECT_TRUE(has(stated.out, "33.9")) << stated.out;
   write("# x [mm] height [um]\n");
   EXPECT_EQ(call(fmt::format("roughness {} --units m,um", file.string())).code, 2);
+}
+
+TEST_F(Commands, AnOutputDoesNotReplaceTheInput) {
+  const fs::path file = folder_ / "levels.csv";
+  std::ofstream(file) << "mine\n";
+  const fs::path own_scene = folder_ / "own.toml";
+  std::ofstream(own_scene) << "scene.based_on = \"highspeed-slab-2014\"\n";
+  for (const std::string& command :
+       {fmt::format("export {} -o {}", own_scene.string(), own_scene.string()),
+        fmt::format("roughness {} -o {}/./", file.string(), folder_.string()),
+        fmt::format("profile CN60 --against {} --svg {}", file.string(), file.string())}) {
+    const Outcome outcome = call(command);
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_TRUE(has(outcome.errors, "would replace the input")) << outcome.errors;
+  }
 }
 
 TEST_F(Commands, RoughnessNamesTheBrokenLine) {

@@ -107,10 +107,13 @@ TEST(FigureFiles, EveryNamedFigureHasAPictureAndATable) {
   EXPECT_NE(read_text_file(folder / "patch-movie.svg", 1 << 20).find("t = 2 ms"), std::string::npos);
 
   std::ofstream(folder / "notes.txt") << "mine";
+  std::ofstream(folder / "mine.svg") << "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>";
+  std::ofstream(folder / "mine.csv") << "mine";
+  fs::copy_file(folder / "forces.svg", folder / "copy.svg");
   remove_figures(folder);
   EXPECT_TRUE(figures_in(folder).empty());
-  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
-  fs::remove(folder / "notes.txt");
+  for (const char* foreign : {"notes.txt", "mine.svg", "mine.csv", "copy.svg"})
+    EXPECT_TRUE(fs::remove(folder / foreign)) << foreign;
   remove_figures(folder);
   EXPECT_FALSE(fs::exists(folder));
 }

@@ -5,7 +5,9 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "drivers/process/child_process.hpp"
 #include "drivers/process/interruption.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -42,6 +44,17 @@ TEST(Interruption, ASecondRequestEndsAtOnce) {
         ::raise(SIGINT);
       },
       testing::ExitedWithCode(kResumable), "late");
+}
+
+// `tread ctl STUDY checkpoint` reaches points that have only just started.
+TEST(ChildProcess, OutlivesARequestBeforeItsHandlerExists) {
+  const samples::TemporaryFolder temporary;
+  const ChildProcess child({"--gtest_list_tests"}, temporary.path / "log");
+  child.send(SIGUSR1);
+  ProcessEnd end{-1, -1};
+  while (!child.ended(end)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_EQ(end.code, 0);
 }
 
 }  // namespace

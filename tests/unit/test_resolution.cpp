@@ -43,6 +43,12 @@ TEST(EdgeWarning, IsOfProfilesThatTouchBesideOneAnother) {
   EXPECT_TRUE(any_has(of_tyre({"wheel.lateral_offset=45 mm"}), cut));
 }
 
+TEST(StressDepthWarning, NamesTheSmallestDepthOfAnElement) {
+  EXPECT_TRUE(
+      any_has(of_tyre({"output.stress_depth=0.5 mm"}), "output.stress_depth = 0.5 mm adds no stress"));
+  EXPECT_FALSE(any_has(of_tyre({"output.stress_depth=20 mm"}), "output.stress_depth"));
+}
+
 TEST(FasteningWarning, NamesKeysThatFillTheRail) {
   const auto track = [](const char* first, const char* origin, const char* count) {
     return of_tyre({"rail.support=fastenings", "rail.height=150 mm", "rail.length=2.4 m",

@@ -262,7 +262,8 @@ TEST(Multibody, PassingIsThatOfAWholeSpanWithoutSurfaces) {
     return std::pair(model, run_multibody(model, {20, 20e-6}));
   };
   // The span begins before x = 0.
-  const std::string early = std::string(kCorrugationD) + "start = \"60 mm\"\n";
+  const std::string early =
+      std::string(kCorrugationD) + "start = \"60 mm\"\n[solution_zone]\nstart = \"50 mm\"\n";
   const auto [model, r] = rolled(early);
   const double begin = model.corrugation.first() - model.scene.fastenings->spacing;
   EXPECT_LT(begin, 0);

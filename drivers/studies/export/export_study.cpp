@@ -155,6 +155,8 @@ void write_radioss_files(const std::filesystem::path& deck, const Scene& scene, 
 }  // namespace
 
 void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
+  require_other_file(options.output, resolved.source.name);
+  for (const auto& [file, text] : resolved.source.files) require_other_file(options.output, file);
   use_threads(options.threads);
   DeckOptions deck_choice = deck_options(options);
   Scene scene = resolved.scene;

@@ -51,12 +51,17 @@ void check(const MultibodyOptions& options) {
   if (!options.output.empty()) require_folder_of(options.output, "multibody");
 }
 
+/// Removes files of an earlier call that this one may not write.
+void remove_earlier_files(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (const char* name : {"calibration.csv", "map.csv"}) std::filesystem::remove(directory / name, ignored);
+  remove_figures(directory / kFigureFolder);
+}
+
 void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
                  const MultibodyOptions& options) {
   const std::filesystem::path& directory = options.output;
-  std::error_code ignored;  // files that this call does not write would be those of an earlier one
-  for (const char* name : {"calibration.csv", "map.csv"}) std::filesystem::remove(directory / name, ignored);
-  remove_figures(directory / kFigureFolder);
+  if (require_folder_of(directory, "multibody")) remove_earlier_files(directory);
   keep_scene(directory, resolved);
   write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
   write_text_file(directory / "summary.json", multibody_json(outcome));

@@ -207,6 +207,8 @@ void require_contact_of(const ProfileOptions& options) {
 void profile(const ProfileOptions& options) {
   if (options.wheel && options.rail) throw InputError("--wheel and --rail: a file holds one of them");
   require_contact_of(options);
+  for (const auto& output : {options.output, options.svg})
+    for (const auto& input : {options.file, options.against}) require_other_file(output, input);
   const std::optional<bool> stated =
       options.wheel || options.rail ? std::optional(options.wheel) : std::nullopt;
   const ShownProfile shown = shown_profile(options.file, stated, options);

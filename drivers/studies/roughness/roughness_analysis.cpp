@@ -14,6 +14,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/roughness/level_figure.hpp"
 #include "drivers/studies/roughness/roughness_levels.hpp"
+#include "io/files/named_output.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/markup.hpp"
@@ -179,7 +180,11 @@ Outcome processed(const RoughnessOptions& options) {
 }  // namespace
 
 void roughness(const RoughnessOptions& options) {
-  if (!options.output.empty()) require_folder_of(options.output, "roughness");
+  if (!options.output.empty()) {
+    require_folder_of(options.output, "roughness");
+    for (const char* name : {"levels.csv", "levels.svg", "report.html"})
+      require_other_file(options.output / name, options.file);
+  }
   use_threads(options.threads);
   const Outcome outcome = processed(options);
   if (!options.output.empty()) {

@@ -43,6 +43,8 @@ std::string without_slurm(std::string command, const std::string& script) {
 
 void write_job_array(const StudyPlan& plan, const std::filesystem::path& script, bool retry,
                      const std::string& command) {
+  for (const std::filesystem::path& input : {std::filesystem::path(plan.study.name), plan.study.scene})
+    require_other_file(script, input);
   std::string elements;
   std::size_t count = 0;
   for (const PlannedPoint& point : plan.points)
