@@ -1,6 +1,7 @@
 #pragma once
 // Isotropic materials.
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct Material {
     return MaxwellBranch{rayleigh_beta / time, time};
   }
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+  /// Speed of a pressure wave [m/s].
+  double pressure_wave_speed() const { return std::sqrt((lame_lambda() + 2 * shear_modulus()) / density); }
 };
 
 }  // namespace tread

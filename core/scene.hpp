@@ -244,6 +244,8 @@ struct CorrugationSpec {
   std::vector<double> table_depth;  ///< positive downwards; of a map: a row of x for each y [m]
 
   bool in_file() const { return kind == "table" || kind == "map"; }
+  /// Shortest wave of depths that are not in a file [m].
+  double shortest_wave() const { return kind == "random" ? shortest : wavelength; }
 };
 
 /// [wear]: how passages change the rail's profile

@@ -15,6 +15,11 @@ struct Statistics {
   double range() const { return max - min; }
 };
 
+/// Mean distance of places in their order, two at least.
+inline double mean_spacing(const std::vector<double>& places) {
+  return (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+}
+
 /// Statistics of value(item) over the items that `counts` accepts; zeros if there is none.
 template <class Items, class Counts, class Value>
 Statistics statistics(const Items& items, const Counts& counts, const Value& value) {

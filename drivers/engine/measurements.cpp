@@ -33,8 +33,7 @@ double angle_on_wheel(const Model& model, double x) {
 /// Throws InputError, which begins with `what`, where a part of a ring does not come to x [m].
 void require_on_wheel(const Model& model, double x, const std::string& what) {
   const SweptBlock& tread = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
-  const double angle = angle_on_wheel(model, x);
-  if (tread.closed || (angle >= tread.stations.front() && angle <= tread.stations.back())) return;
+  if (StationFinder(tread).find(angle_on_wheel(model, x)).station >= 0) return;
   const double start = model.scene.start_x(), radius = model.wheel_radius();
   throw InputError(
       fmt::format("{}: x = {:.4g} m lies beyond the part of the wheel that is there, {:.4g} to {:.4g} m; "

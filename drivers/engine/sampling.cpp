@@ -10,8 +10,7 @@ std::int64_t sample_count(const Model& model) {
   if (!scene.motion) return 0;
   double fastest = 0;  // wave [m/s]
   for (const auto& [name, material] : scene.materials)
-    fastest = std::max(fastest,
-                       std::sqrt((material.lame_lambda() + 2 * material.shear_modulus()) / material.density));
+    fastest = std::max(fastest, material.pressure_wave_speed());
   const double step = model.sizes.contact / fastest;
   return static_cast<std::int64_t>(
              std::ceil(scene.motion->duration / std::max(scene.output.history_interval, step))) +

@@ -12,69 +12,87 @@ namespace tread {
 
 namespace {
 
-/// A section of a beam and how it changes along the rail.
-struct BentSection {
-  SectionMotion motion;
-  SectionMotion slope;  ///< d/dx of the motion [1/m of it]
-};
-
-BentSection bent_section(const RunIn& run_in, SectionMotion RunIn::Section::*part, double x) {
-  const auto at = [&](double place) { return run_in.at(place).*part; };
-  return {at(x), 0.5 / run_in.pitch * (at(x + run_in.pitch) - at(x - run_in.pitch))};
-}
-
-/// Motion of a point at y, z from the section's centroid: the sides of a bent rail are free, and contract as
-/// its fibres stretch. [theory.md, eq. (12c)]
-Vec3 motion_in(const BentSection& bent, double poissons_ratio, double y, double z) {
-  const SectionMotion& section = bent.motion;
-  const double stretch = bent.slope.axial, bend = bent.slope.rotation;
-  return {section.axial + z * section.rotation, -poissons_ratio * (stretch + bend * z) * y,
-          -section.deflection - poissons_ratio * (stretch * z + 0.5 * bend * (z * z - y * y))};
-}
-
-/// Centroid of the rail's section: of its mass by length [m].
-Vec3 rail_centroid(const Model& model) {
-  double mass = 0;
-  Vec3 moment;
-  const auto add = [&](double m, double y, double z) {
-    mass += m;
-    moment += Vec3{0, m * y, m * z};
-  };
-  for (const int b : model.index.rail()) {
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
-    for (int node = 0; node < block.section.nodes(); ++node)
-      add(model.mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1),
-          block.section.p[static_cast<std::size_t>(node)], block.section.q[static_cast<std::size_t>(node)]);
-  }
-  const double length = model.scene.rail->length;
-  for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
-    add(model.mass[static_cast<std::size_t>(slot)] / length, at.y, at.z);
-  });
-  return (1 / mass) * moment;
-}
-
-/// Adds the run-in's `part` of the rail to a field: [m] or [m/s].
-void add_to_rail(const Model& model, const RunIn& run_in, SectionMotion RunIn::Section::*part,
-                 AlignedVector<double>& field) {
-  const Vec3 centroid = rail_centroid(model);
-  const double nu = model.scene.rail_material().poissons_ratio;
-  NodeField nodes(field.data());
-  for (const int b : model.index.rail()) {
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
-    for (int station = 0; station < block.station_count(); ++station) {
-      const BentSection bent = bent_section(run_in, part, block.stations[static_cast<std::size_t>(station)]);
+/// The rail, whose sections move as a run-in's displacement or rate has them: [m] or [m/s]. Its sides are
+/// free and contract as its fibres stretch. [theory.md, eq. (12c)]
+class BentRail {
+ public:
+  /// Keeps references.
+  BentRail(const Model& model, const RunIn& run_in, SectionMotion RunIn::Section::*part)
+      : model_(model),
+        run_in_(run_in),
+        part_(part),
+        poissons_ratio_(model.scene.rail_material().poissons_ratio) {
+    double mass = 0;
+    const auto add = [&](double m, double y, double z) {
+      mass += m;
+      centroid_ += Vec3{0, m * y, m * z};
+    };
+    for (const int b : model.index.rail()) {
+      const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
       for (int node = 0; node < block.section.nodes(); ++node)
-        nodes.add(block.base + block.slot(node, station),
-                  motion_in(bent, nu, block.section.p[static_cast<std::size_t>(node)] - centroid.y,
-                            block.section.q[static_cast<std::size_t>(node)] - centroid.z));
+        add(model.mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1),
+            block.section.p[static_cast<std::size_t>(node)], block.section.q[static_cast<std::size_t>(node)]);
     }
+    const double length = model.scene.rail->length;
+    for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
+      add(model.mass[static_cast<std::size_t>(slot)] / length, at.y, at.z);
+    });
+    centroid_ = (1 / mass) * centroid_;
   }
-  for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
-    nodes.add(slot, motion_in(bent_section(run_in, part, at.x), nu, at.y - centroid.y, at.z - centroid.z));
-  });
-  for (const std::int64_t unknown : model.restrained) field[static_cast<std::size_t>(unknown)] = 0;
-  if (model.ties) model.ties->follow({field.data()});
-}
+
+  /// Adds the motion of all nodes to a vector field.
+  void add_to(AlignedVector<double>& field) const {
+    NodeField nodes(field.data());
+    for (const int b : model_.index.rail()) {
+      const SweptBlock& block = model_.mesh.blocks[static_cast<std::size_t>(b)];
+      for (int station = 0; station < block.station_count(); ++station) {
+        const BentSection section = section_at(block.stations[static_cast<std::size_t>(station)]);
+        for (int node = 0; node < block.section.nodes(); ++node)
+          nodes.add(block.base + block.slot(node, station),
+                    motion(section, block.section.p[static_cast<std::size_t>(node)],
+                           block.section.q[static_cast<std::size_t>(node)]));
+      }
+    }
+    for_each_body_node(model_.mesh, false, [&](std::int64_t slot, const Vec3& at) {
+      nodes.add(slot, motion(section_at(at.x), at.y, at.z));
+    });
+    for (const std::int64_t unknown : model_.restrained) field[static_cast<std::size_t>(unknown)] = 0;
+    if (model_.ties) model_.ties->follow({field.data()});
+  }
+
+  /// Vertical motion of the crown's middle at x [m].
+  double rise_of_crown(double x) const {
+    const SurfaceProfile crown(model_.mesh.blocks[static_cast<std::size_t>(model_.index.rail_cap)].section);
+    return motion(section_at(x), 0, crown.q_at(0)).z;
+  }
+
+ private:
+  struct BentSection {
+    SectionMotion motion;
+    SectionMotion slope;  ///< d/dx of the motion
+  };
+
+  BentSection section_at(double x) const {
+    const auto at = [&](double place) { return run_in_.at(place).*part_; };
+    return {at(x), 0.5 / run_in_.pitch * (at(x + run_in_.pitch) - at(x - run_in_.pitch))};
+  }
+
+  /// Motion of a point of the section at y, z [m].
+  Vec3 motion(const BentSection& section, double y, double z) const {
+    y -= centroid_.y;
+    z -= centroid_.z;
+    const SectionMotion& mean = section.motion;
+    const double stretch = section.slope.axial, bend = section.slope.rotation;
+    return {mean.axial + z * mean.rotation, -poissons_ratio_ * (stretch + bend * z) * y,
+            -mean.deflection - poissons_ratio_ * (stretch * z + 0.5 * bend * (z * z - y * y))};
+  }
+
+  const Model& model_;
+  const RunIn& run_in_;
+  SectionMotion RunIn::Section::*part_;
+  double poissons_ratio_;
+  Vec3 centroid_;  ///< of the mass by length
+};
 
 /// Adds to the sleepers' vertical motion what `value` has of each, downwards: [m] or [m/s].
 void add_to_sleepers(const Model& model, const RunIn& run_in, double RunIn::Sleeper::*value,
@@ -119,24 +137,12 @@ void roll_freely(const Model& model, const Preload& preload, const StartFields& 
 
 }  // namespace
 
-namespace {
-
-/// Rise of the crown's middle by the run-in at x [m].
-double crown_rise(const Model& model, const RunIn& run_in, double x) {
-  const SurfaceProfile crown(model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)].section);
-  const Vec3 centroid = rail_centroid(model);
-  return motion_in(bent_section(run_in, &RunIn::Section::displacement, x),
-                   model.scene.rail_material().poissons_ratio, -centroid.y, crown.q_at(0) - centroid.z)
-      .z;
-}
-
-}  // namespace
-
 void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
   if (!run_in) return;
-  add_to_rail(model, *run_in, &RunIn::Section::displacement, fields.displacement);
+  const BentRail rail(model, *run_in, &RunIn::Section::displacement);
+  rail.add_to(fields.displacement);
   add_to_sleepers(model, *run_in, &RunIn::Sleeper::deflection, fields.displacement);
-  fields.wheel.origin.z += crown_rise(model, *run_in, fields.wheel.origin.x);
+  fields.wheel.origin.z += rail.rise_of_crown(fields.wheel.origin.x);
 }
 
 namespace {
@@ -150,7 +156,7 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
   const bool deflected = model.scene.start() != "rigid";
   if (deflected) move_deflection(model, speed, fields);
   if (run_in) {
-    add_to_rail(model, *run_in, &RunIn::Section::rate, fields.velocity);
+    BentRail(model, *run_in, &RunIn::Section::rate).add_to(fields.velocity);
     add_to_sleepers(model, *run_in, &RunIn::Sleeper::speed, fields.velocity);
   }
   if (run_in) bend_axle(model, run_in->bending_speed, fields);
@@ -167,7 +173,7 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
   for (const HexBody& body : model.mesh.bodies)
     for (std::int64_t i = 3 * body.base; body.spins && i < 3 * (body.base + body.slots()); ++i)
       fields.velocity[static_cast<std::size_t>(i)] *= spin_ratio;
-  if (run_in) bend_axle(model, (1 - spin_ratio) * run_in->bending_speed, fields);  // does not spin
+  if (run_in) bend_axle(model, (1 - spin_ratio) * run_in->bending_speed, fields);  // no part of the spin
 }
 
 void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& fields) {

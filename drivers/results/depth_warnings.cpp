@@ -51,11 +51,6 @@ std::string start_warning(const Model& model, const Corrugation& corrugation) {
       1e6 * deepest, scene.start_x(), 2e3 * half);
 }
 
-/// Shortest wave of the corrugation [m].
-double shortest_wave(const CorrugationSpec& corrugation) {
-  return corrugation.kind == "random" ? corrugation.shortest : corrugation.wavelength;
-}
-
 /// Sentence where a length has too few elements; `part`: what to resolve.
 std::string length_warning(const std::string& what, double length, double element, const char* part) {
   if (length / element >= kElementsOfWave) return "";
@@ -221,7 +216,8 @@ void add_corrugation_warnings(const Model& model, std::vector<std::string>& warn
     warnings.push_back(step_warning(spec));
     warnings.push_back(side_warning(model));
   } else {
-    warnings.push_back(length_warning("a wave of the corrugation", shortest_wave(spec), element, "the wave"));
+    warnings.push_back(
+        length_warning("a wave of the corrugation", spec.shortest_wave(), element, "the wave"));
   }
   if (spec.kind != "map")
     warnings.push_back(length_warning("the width of the corrugation", 2 * spec.width, element, "it"));

@@ -107,9 +107,7 @@ std::string hammer_warning(const Model& model) {
         "the blow of hammer.duration = {:.4g} ms is cut off at the run's end, {:.4g} ms; state a longer "
         "motion.duration",
         1e3 * blow, 1e3 * scene.motion->duration);
-  const Material& head = scene.head_material();
-  const double wave = std::sqrt((head.lame_lambda() + 2 * head.shear_modulus()) / head.density);  // [m/s]
-  const double least = kElementsOfBlow * model.sizes.contact / wave;
+  const double least = kElementsOfBlow * model.sizes.contact / scene.head_material().pressure_wave_speed();
   if (blow < least)
     return fmt::format(
         "hammer.duration = {:.4g} ms is a blow of {:.2g} steps or so: below {:g}, neither steps nor elements "

@@ -48,10 +48,8 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
   r.full_slip_share = full_slip_share(r.samples, evaluated);
 }
 
-/// Change of F_L / F_N along the steady stretch over its mean, and its size that is always accepted: smaller
-/// F_L / F_N is free rolling.
+/// Change of F_L / F_N along the steady stretch over its mean; kSmallTraction is always accepted.
 constexpr double kSteady = 0.05;
-constexpr double kSmallTraction = 0.005;
 
 /// Mean F_L over mean F_N between two places of the wheel [m]; 0 without load.
 double traction_between(const std::vector<Sample>& samples, double first, double last) {

@@ -101,6 +101,9 @@ struct RunResults {
 /// Fills the figures from the samples.
 void evaluate(const Model& model, RunResults& results);
 
+/// F_L / F_N below which a wheel rolls freely. [theory.md, eq. 13a]
+inline constexpr double kSmallTraction = 0.005;
+
 /// Creepage of the frictional work between two places of the wheel [m]: work per way over the mean of F_L.
 /// Nothing without way, or where F_L is too small against F_N. [theory.md, eq. 13a]
 std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last);

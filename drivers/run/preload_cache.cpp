@@ -160,10 +160,13 @@ void keep_preload(const ContentCache& cache, const std::string& key, FoundPreloa
 }  // namespace
 
 std::uint64_t program_hash() {
-  const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
-  Hash hash;
-  hash.add(std::as_bytes(std::span(program)));
-  return hash.value();
+  static const std::uint64_t value = [] {
+    const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
+    Hash hash;
+    hash.add(std::as_bytes(std::span(program)));
+    return hash.value();
+  }();
+  return value;
 }
 
 std::optional<ContentCache> preload_cache(const std::string& place) {

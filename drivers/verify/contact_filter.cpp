@@ -49,20 +49,15 @@ Rest rest(TyreOnBlock bodies, const Waves& waves, bool trough, const ProgressTex
   return {journal, model.contact->nodes().max_pressure()};
 }
 
-/// Distance from the middle [m] within which a wheel of this radius [m] touches a hollow of this curvature
-/// [1/m]; the wheel bridges a hollow that is more curved than the wheel, at most from edge to edge.
-double reach(double semi_axis, double radius, double curvature, double edge) {
-  return std::max(2 * semi_axis, curvature * radius > 0.5 ? edge + semi_axis : 0.0);
-}
-
 half_space::Grid grid_under(const TyreOnBlock& bodies, const Waves& waves, bool trough) {
   const HertzPatch patch = bodies.hertz_patch();
   const double hollow = trough ? waves.depth : 0;
   const double along = 0.5 * hollow * std::pow(2 * std::numbers::pi / waves.wavelength, 2);
   const double across = 2 * hollow / (waves.width * waves.width);
-  return half_space::centred_grid(reach(patch.semi_axis_x, bodies.radius, along, waves.half_length(trough)),
-                                  reach(patch.semi_axis_y, bodies.crown_radius, across, waves.width),
-                                  std::min(patch.semi_axis_x, patch.semi_axis_y) / 10);
+  return half_space::centred_grid(
+      half_space::reach_in_hollow(patch.semi_axis_x, bodies.radius, along, 0, waves.half_length(trough)),
+      half_space::reach_in_hollow(patch.semi_axis_y, bodies.crown_radius, across, 0, waves.width),
+      std::min(patch.semi_axis_x, patch.semi_axis_y) / 10);
 }
 
 /// Throws InputError where the wheel touches the rail beyond the waves that the finite elements have.

@@ -221,9 +221,8 @@ std::vector<Family> families(const VerifyInputs& inputs) {
 
 /// Courant number of the fastest wave over the shortest edge.
 double courant(const Shape& shape, double step) {
-  const Material steel = material_of(shape);
-  const double speed = std::sqrt((steel.lame_lambda() + 2 * steel.shear_modulus()) / steel.density);
-  return step * speed / *std::min_element(shape.size.begin(), shape.size.end());
+  return step * material_of(shape).pressure_wave_speed() /
+         *std::min_element(shape.size.begin(), shape.size.end());
 }
 
 Finding refusal(const std::string& what, const std::vector<std::string>& parts,

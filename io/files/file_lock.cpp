@@ -46,8 +46,7 @@ int open_folder_lock(int folder, int flags) {
 
 /// Returns true if the open lock file of a folder has lost its name: the next holder would lock another file.
 bool is_removed(int folder, int descriptor) {
-  struct stat open {
-  }, named{};
+  struct stat open = {}, named = {};
   return ::fstat(descriptor, &open) != 0 ||
          ::fstatat(folder, kFolderLock, &named, AT_SYMLINK_NOFOLLOW) != 0 || open.st_ino != named.st_ino ||
          open.st_dev != named.st_dev;

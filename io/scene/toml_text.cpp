@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/scene/problems.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -84,23 +85,13 @@ void refuse_foreign_characters(const std::string& text, const std::string& file)
                         "a character that is not ASCII stands outside of quotes and comments"}});
 }
 
-/// Bytes of the UTF-8 character that begins at `at`, or 1 where none does.
-std::size_t character_bytes(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const unsigned first = byte(at);
-  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 1;
-  for (std::size_t i = 1; i < bytes; ++i)
-    if ((byte(at + i) & 0xC0U) != 0x80) return 1;
-  return bytes;
-}
-
 /// The text with an x in place of every character that is not ASCII, a byte order mark excepted: what is
 /// TOML in this form has such characters only where `foreign_character` finds them or where they are free
 /// text, and toml++ meets none of them in the middle of a malformed value.
 std::string in_ascii(const std::string& text) {
   std::string ascii;
   for (std::size_t i = 0, bytes = 0; i < text.size(); i += bytes) {
-    bytes = character_bytes(text, i);
+    bytes = std::max<std::size_t>(utf8_bytes(text, i), 1);
     if (bytes == 1 || (i == 0 && text.starts_with("\xEF\xBB\xBF")))
       ascii.append(text, i, bytes);
     else

@@ -75,6 +75,11 @@ Grid centred_grid(double half_x, double half_y, double cell, bool node) {
   return {nx, ny, cell, cell, -0.5 * (nx - 1) * cell, -0.5 * (ny - 1) * cell};
 }
 
+double reach_in_hollow(double semi_axis, double radius, double curvature, double slope, double edge) {
+  const double touching = curvature * radius > 0.5 ? edge : 2 * slope * radius;
+  return std::max(2 * semi_axis, 1.5 * semi_axis + touching);
+}
+
 double interpolated(const Grid& grid, const std::vector<double>& field, double x, double y) {
   const double u = (x - grid.x0) / grid.dx;
   const double v = (y - grid.y0) / grid.dy;

@@ -31,6 +31,11 @@ struct Grid {
 /// centre, or, with `node`, a corner of four cells.
 Grid centred_grid(double half_x, double half_y, double cell, bool node = false);
 
+/// Distance from a hollow's middle [m] up to which a patch of this semi-axis [m] may reach. On its slope a
+/// wheel of this radius [m] touches where it is as steep, twice as far away in a hollow half as curved [1/m];
+/// more curved hollows are bridged, at most from edge to edge.
+double reach_in_hollow(double semi_axis, double radius, double curvature, double slope, double edge);
+
 /// A cell field between the cells' centres, bilinear; zero beyond the outermost.
 double interpolated(const Grid& grid, const std::vector<double>& field, double x, double y);
 

@@ -30,7 +30,7 @@ using samples::file;
 using samples::kTraction;
 using samples::tyre;
 
-/// What rank 0 tells all, by call.
+/// Broadcasts of rank 0, by call.
 using Told = std::deque<std::vector<std::byte>>;
 
 /// One of two ranks: rank 0 notes what it tells, the other one hears it.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "drivers/process/interruption.hpp"
 #include "drivers/run/scene_content.hpp"
@@ -40,7 +41,9 @@ std::string passage_text(const Development& development) {
 void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
-  const double room = options.from.empty() ? room_of_passage0(resolved, options.passages) : 0;
+  std::optional<double> room;
+  if (options.from.empty() && !std::filesystem::exists(options.output / kKeptScene))
+    room = room_of_passage0(resolved, options.passages);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");

@@ -7,6 +7,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/error.hpp"
+#include "core/math/statistics.hpp"
 #include "core/travel.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/engine/station_plan.hpp"
@@ -65,9 +66,8 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
 
 /// Spacing of a file's places, their mean, or of depths that show the shortest wave [m].
 double own_spacing(const CorrugationSpec& corrugation) {
-  const std::vector<double>& x = corrugation.table_x;
-  if (corrugation.in_file()) return (x.back() - x.front()) / static_cast<double>(x.size() - 1);
-  return (corrugation.kind == "random" ? corrugation.shortest : corrugation.wavelength) / kDepthsPerWave;
+  return corrugation.in_file() ? mean_spacing(corrugation.table_x)
+                               : corrugation.shortest_wave() / kDepthsPerWave;
 }
 
 /// Spacing that shows the waves that wear and those of the corrugation, down to one element [m].

@@ -182,7 +182,7 @@ Error failure(const fs::path& folder, const PointStatus& status) {
 }  // namespace
 
 DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& resolved, Options options)
-    : folder_(made(path)), scene_(resolved.scene), options_(std::move(options)) {
+    : folder_(made(path)), resolved_(resolved), options_(std::move(options)) {
   require_same(folder_.path(), resolved);
   for (const char* name : {"work", "profiles"}) make_directory(folder_ / name);
   keep_scene(folder_.path(), resolved);
@@ -193,7 +193,8 @@ DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& 
   else
     fs::remove(folder_ / kStart);  // of a call that began nothing
   const std::string smooth = smooth_scene(resolved);
-  write_text_file(folder_ / kSmoothScene, smooth + (options_.from.empty() ? fork_table(scene_) : ""));
+  write_text_file(folder_ / kSmoothScene,
+                  smooth + (options_.from.empty() ? fork_table(resolved_.scene) : ""));
   write_text_file(folder_ / kPassageScene, smooth);
 }
 
@@ -218,10 +219,13 @@ std::vector<std::string> DevelopmentFolder::overrides(int number, const Developm
   if (number == 0) {
     // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
     // run with whose state they begin.
-    if (options_.from.empty()) list.push_back(fmt::format("contact.depth_room={} m", options_.room));
+    if (options_.from.empty()) {
+      const double room = options_.room ? *options_.room : room_of_passage0(resolved_, options_.passages);
+      list.push_back(fmt::format("contact.depth_room={} m", room));
+    }
     return list;
   }
-  const CorrugationSpec& spec = *scene_.corrugation;
+  const CorrugationSpec& spec = *resolved_.scene.corrugation;
   const Corrugation start = corrugation_of(spec, 0);
   list.insert(list.end(), {"corrugation.apply=gap", "corrugation.file=" + profile_path(number - 1).string(),
                            fmt::format("corrugation.start={} m", start.first())});
@@ -267,7 +271,7 @@ void DevelopmentFolder::say_warnings(int number, const Progress& progress) const
   const auto warnings = [&](int passage) {
     const fs::path summary = run_path(passage) / "summary.json";
     if (!fs::exists(summary)) return std::vector<std::string>();
-    return warnings_in(read_finished_run(run_path(passage), scene_, "").summary);
+    return warnings_in(read_finished_run(run_path(passage), resolved_.scene, "").summary);
   };
   const std::vector<std::string> known = number > 0 ? warnings(number - 1) : std::vector<std::string>();
   for (const std::string& warning : warnings(number))
@@ -277,18 +281,19 @@ void DevelopmentFolder::say_warnings(int number, const Progress& progress) const
 
 void DevelopmentFolder::keep_profile(int number, const Development& development) const {
   const WornProfile& profile = development.profile;
-  write_text_file(profile_path(number), development.rows ? map_table(profile, *development.rows,
-                                                                     development.centre(*scene_.corrugation))
-                                                         : profile_table(profile));
+  write_text_file(profile_path(number), development.rows
+                                            ? map_table(profile, *development.rows,
+                                                        development.centre(*resolved_.scene.corrugation))
+                                            : profile_table(profile));
 }
 
 SurfaceWork DevelopmentFolder::pass(int number, const Development* before, Progress& progress) const {
   if (before) keep_profile(number - 1, *before);
-  const bool by_row = scene_.wear->across;
+  const bool by_row = resolved_.scene.wear->across;
   if (!fs::exists(work_path(number))) {
     roll(number, before, progress);
     say_warnings(number, progress);
-    const Corrugation stretch = corrugation_of(*scene_.corrugation, 0);
+    const Corrugation stretch = corrugation_of(*resolved_.scene.corrugation, 0);
     const SurfaceWork work = work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last());
     if (by_row) write_rows(rows_path(number), work.rows);
     write_text_file(work_path(number), work_csv(work.mean));
@@ -330,7 +335,7 @@ SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
 
 namespace {
 
-/// How the wheel comes near the zone in passage 0 with so much room [m]; nullopt where the way is long enough
+/// Approach of the wheel to the zone in passage 0 with so much room [m]; nullopt where the way is long enough
 /// for any.
 std::optional<Approach> near_approach(const ResolvedScene& resolved, double room) {
   constexpr double kFar = 0.3;  // beyond the reach of any patch [m]

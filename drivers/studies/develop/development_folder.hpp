@@ -2,6 +2,7 @@
 // The folder of a development: passages as runs, their work and profiles as tables.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "drivers/process/progress.hpp"
@@ -20,7 +21,7 @@ class DevelopmentFolder {
     int threads = 0;     ///< threads of a passage; 0: all
     std::string device;  ///< takes the steps; empty: the processor
     int passages = 0;    ///< passages of the whole development, for progress lines
-    double room = 0;     ///< that passage 0 leaves, if nothing is stated by `from` [m]
+    std::optional<double> room;  ///< room_of_passage0(), where it is known
   };
 
   /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds
@@ -48,7 +49,7 @@ class DevelopmentFolder {
   void say_warnings(int number, const Progress& progress) const;
 
   RunFolder folder_;
-  Scene scene_;
+  ResolvedScene resolved_;
   Options options_;
 };
 

@@ -7,6 +7,7 @@
 #include "core/math/interpolation.hpp"
 #include "core/math/statistics.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/results/run_results.hpp"
 
 namespace tread {
 
@@ -76,12 +77,11 @@ RunCurve longitudinal_force() {
 
 /// Returns true if F_L over the evaluated stretch is small against the static F_N. [theory.md, eq. 13a]
 bool rolls_freely(const FinishedRun& run) {
-  constexpr double kSmall = 0.005;  // F_L / F_N
   const CurvePoints force = read_curve(run, longitudinal_force());
   const Span known = with_room(evaluated_stretch(run.scene, run.corrugation()), force, 0);
   if (known.empty()) return false;
   const double level = quadratic_mean(statistics(values_on(force, known, 0)));
-  return level < kSmall * run.number("static_wheel_load_N").value_or(0);
+  return level < kSmallTraction * run.number("static_wheel_load_N").value_or(0);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/math/statistics.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
 
 namespace tread {
@@ -24,16 +25,10 @@ double wavelength_of(const MultibodyModel& model) {
 /// Shortest wave that depths at these places show in full [m].
 double shortest_measured(const std::vector<double>& x) {
   constexpr double kPlacesOfAWave = 20;  // as in random roughness
-  return kPlacesOfAWave * (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+  return kPlacesOfAWave * mean_spacing(x);
 }
 
-/// Shortest wave of a corrugation [m].
-double shortest_of(const CorrugationSpec& spec) {
-  if (spec.in_file()) return shortest_measured(spec.table_x);
-  return spec.kind == "random" ? spec.shortest : spec.wavelength;
-}
-
-/// The same of a surface; `diameter`: of the wheel [m].
+/// Shortest wave of a surface; `diameter`: of the wheel [m].
 double shortest_of(const SurfaceSpec& spec, double diameter) {
   if (spec.kind == "profile" || spec.kind == "map") return shortest_measured(spec.file_x);
   if (spec.kind == "waves") return spec.wavelength;
@@ -43,7 +38,8 @@ double shortest_of(const SurfaceSpec& spec, double diameter) {
 /// Shortest wave of corrugation and surfaces [m]; infinite where rail and wheel are smooth.
 double shortest_wave(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
-  if (scene.corrugation) shortest = shortest_of(*scene.corrugation);
+  if (const auto& spec = scene.corrugation)
+    shortest = spec->in_file() ? shortest_measured(spec->table_x) : spec->shortest_wave();
   for (const auto& [name, surface] : scene.surfaces)
     shortest = std::min(shortest, shortest_of(surface, scene.wheel->diameter));
   return shortest;

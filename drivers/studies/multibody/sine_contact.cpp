@@ -12,14 +12,6 @@ namespace {
 constexpr int kPhases = 5;    ///< from crest to trough
 constexpr double kCells = 8;  ///< over the shorter semi-axis
 
-/// Distance from the contact [m] up to which a patch of this semi-axis [m] may reach. On a slope a wheel of
-/// this radius [m] touches where it is as steep, twice as far away in a trough half as curved [1/m]; more
-/// curved troughs are bridged, at most from edge to edge.
-double reach_of(double semi_axis, double radius, double curvature, double slope, double edge) {
-  const double touching = curvature * radius > 0.5 ? edge : 2 * slope * radius;
-  return std::max(2 * semi_axis, 1.5 * semi_axis + touching);
-}
-
 }  // namespace
 
 double SineUnderWheel::depth_at(double x, double y, double phase) const {
@@ -39,9 +31,10 @@ half_space::Grid SineUnderWheel::grid(const HertzPatch& patch) const {
   const double slope = 0.5 * depth * wave_number;
   const double bend = 2 * depth / (width * width);
   const double tilt = bend * std::min(std::abs(centre), width);
+  using half_space::reach_in_hollow;
   return half_space::centred_grid(
-      reach_of(patch.semi_axis_x, radius, slope * wave_number, slope, 0.5 * wavelength),
-      reach_of(patch.semi_axis_y, radius_y, bend, tilt, width),
+      reach_in_hollow(patch.semi_axis_x, radius, slope * wave_number, slope, 0.5 * wavelength),
+      reach_in_hollow(patch.semi_axis_y, radius_y, bend, tilt, width),
       std::min(patch.semi_axis_x, patch.semi_axis_y) / kCells);
 }
 

@@ -76,29 +76,26 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
 }
 
-/// Throws InputError unless this machine has the launcher, cards and cores that the runs need. A list, a job
-/// array and a study that has nothing to run need none.
-void require_machine(const StudyPlan& plan, const StudyOptions& options) {
-  const auto to_run = [&](const PlannedPoint& point) { return point.to_run(options.retry); };
-  if (options.list || !options.slurm.empty() || std::ranges::none_of(plan.points, to_run)) return;
-  if (!plan.launcher.empty()) {
-    if (!program_exists(plan.launcher.front()))
-      throw InputError(
-          fmt::format("--launcher: there is no program '{}' in PATH; install it, or state its path",
-                      plan.launcher.front()));
-    return;
-  }
+/// Sentence on launcher, cards or cores that this machine lacks for the runs; "" for a list and a job array,
+/// which need none.
+std::string lacking_here(const StudyPlan& plan, const StudyOptions& options) {
+  if (options.list || !options.slurm.empty()) return "";
+  if (!plan.launcher.empty())
+    return program_exists(plan.launcher.front())
+               ? ""
+               : fmt::format("--launcher: there is no program '{}' in PATH; install it, or state its path",
+                             plan.launcher.front());
   if (plan.cards > 0 && options.jobs > plan.cards)
-    throw InputError(fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
-                                 options.jobs, plan.device,
-                                 plan.cards == 1 ? "is one" : fmt::format("are {}", plan.cards)));
+    return fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
+                       options.jobs, plan.device,
+                       plan.cards == 1 ? "is one" : fmt::format("are {}", plan.cards));
   const int cores = machine_cores();
   const int each = std::max(1, plan.threads);
-  if (plan.jobs * each > cores)
-    throw InputError(
-        fmt::format("{} runs at once with {} threads each need {} cores, this machine has {}: lower --jobs "
-                    "or --threads (study.jobs, study.threads)",
-                    plan.jobs, each, plan.jobs * each, cores));
+  if (plan.jobs * each <= cores) return "";
+  return fmt::format(
+      "{} runs at once with {} threads each need {} cores, this machine has {}: lower --jobs or "
+      "--threads (study.jobs, study.threads)",
+      plan.jobs, each, plan.jobs * each, cores);
 }
 
 /// Lowers the number of runs at once if memory is short and their number was not stated.
@@ -258,13 +255,15 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                                                                "checkpoints with `{}`",
                                                                                resume_command));
   if (!options.list && require_folder_of(plan.folder, command)) require_same_study(plan);
-  if (!options.output.empty()) look_into_folders(plan);
-  require_machine(plan, options);
+  const std::string lacking = lacking_here(plan, options);
+  if (!options.output.empty() && (options.list || !lacking.empty())) look_into_folders(plan);
+  const auto to_run = [&](const PlannedPoint& point) { return point.to_run(options.retry); };
+  if (!lacking.empty() && std::ranges::any_of(plan.points, to_run)) throw InputError(lacking);
   std::optional<RunFolder> folder;
   if (!options.list) {
     make_directory(plan.folder);
     folder.emplace(plan.folder);
-    look_into_folders(plan);  // while no other process works there
+    look_into_folders(plan);
   }
   project_cost(plan, options.retry);
   mind_memory(plan, options);
