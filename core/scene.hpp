@@ -188,6 +188,12 @@ struct ContactSpec {
     if (friction_law != "table" || friction_at_x.empty()) return friction;
     return *std::max_element(friction_at_x.begin(), friction_at_x.end());
   }
+  /// The least that the law knows: all that a sliding patch may transmit [-].
+  double least_friction() const {
+    if (friction_law == "falling") return friction_fast;
+    if (friction_law != "table" || friction_at_x.empty()) return friction;
+    return *std::min_element(friction_at_x.begin(), friction_at_x.end());
+  }
 };
 
 /// [motion]; absent: the scene ends with its static state

@@ -1,6 +1,7 @@
 #include "core/travel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,13 +17,48 @@ double wheel_mass(const Scene& scene) {
   return scene.wheel_material().density * std::numbers::pi * (outer * outer - inner * inner) * wheel.width;
 }
 
+/// Speed and way beyond those of constant speed.
+struct Gain {
+  double full;  ///< acceleration under the full torque [m/s^2]
+  double slip;  ///< speed that the slip of the start has still to give [m/s]
+  double speed = 0;
+  double way = 0;
+
+  /// Goes on for dt [s] under a share of the full torque. Slip takes the rest of what friction can give,
+  /// `grip` [m/s^2].
+  void advance(double share, double grip, double dt) {
+    const double acceleration = full * share;
+    const double of_slip = std::clamp(slip, (-grip - acceleration) * dt, (grip - acceleration) * dt);
+    slip -= of_slip;
+    const double gain = acceleration * dt + of_slip;
+    way += (speed + 0.5 * gain) * dt;
+    speed += gain;
+  }
+};
+
+/// Acceleration under the full traction, with the coefficient of friction f; of a torque, a part counts
+/// [m/s^2].
+double accelerated(const DrivenWheel& wheel, const MotionSpec& motion, double f, double part) {
+  if (wheel.guided) return 0;
+  const double load = wheel.load;
+  const double wanted = motion.traction_mu ? *motion.traction_mu * load
+                                           : part * motion.traction_torque.value_or(0) / wheel.radius;
+  return std::clamp(wanted, -f * load, f * load) / wheel.mass;
+}
+
 }  // namespace
 
 double DrivenWheel::acceleration(const MotionSpec& motion) const {
+  return accelerated(*this, motion, friction, 1);
+}
+
+double DrivenWheel::least_acceleration(const MotionSpec& motion) const {
+  return accelerated(*this, motion, least_friction, mass / (mass + own_mass));
+}
+
+double DrivenWheel::speed_of_slip(const MotionSpec& motion) const {
   if (guided) return 0;
-  const double wanted =
-      motion.traction_mu ? *motion.traction_mu * load : motion.traction_torque.value_or(0) / radius;
-  return std::clamp(wanted, -friction * load, friction * load) / mass;
+  return motion.speed * (motion.spin_ratio() - 1) / (1 + mass / own_mass);
 }
 
 double carried_load(const Scene& scene) {
@@ -34,28 +70,37 @@ DrivenWheel driven_wheel(const Scene& scene) {
   const WheelSpec& wheel = *scene.wheel;
   const auto& vehicle = scene.vehicle;
   const double own = wheel_mass(scene);
-  return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->mass_along() : 0),
-          0.5 * wheel.diameter, scene.contact ? scene.contact->largest_friction() : 0,
-          wheel.bore == "guided"};
+  return {carried_load(scene) + own * scene.gravity,
+          own + (vehicle ? vehicle->mass_along() : 0),
+          0.5 * wheel.diameter,
+          scene.contact ? scene.contact->largest_friction() : 0,
+          wheel.bore == "guided",
+          own,
+          scene.contact ? scene.contact->least_friction() : 0};
 }
 
 Travel travel_of(const Scene& scene) {
   constexpr int kParts = 1000;
   const double start = scene.start_x();
-  Travel travel{start, start};
+  Travel travel{start, start, start};
   if (!scene.wheel || !scene.motion) return travel;
   const MotionSpec& motion = *scene.motion;
-  const double acceleration = driven_wheel(scene).acceleration(motion);
+  const DrivenWheel wheel = driven_wheel(scene);
+  const double most = wheel.acceleration(motion), least = wheel.least_acceleration(motion);
+  const double grip = wheel.grip(), slip = wheel.speed_of_slip(motion);
   const double dt = motion.duration / kParts;
-  double gained_speed = 0;
-  double gained_way = 0;
+  // A torque turns into its opposite, but the wheel's inertia stays: `most` or `least` all along.
+  std::array<Gain, 2> behind{Gain{most, std::min(slip, 0.0)}, Gain{least, std::min(slip, 0.0)}};
+  std::array<Gain, 2> ahead{Gain{most, std::max(slip, 0.0)}, Gain{least, std::max(slip, 0.0)}};
   for (int i = 0; i < kParts; ++i) {
-    const double gain = acceleration * motion.torque_share((i + 0.5) * dt) * dt;
-    gained_way += (gained_speed + 0.5 * gain) * dt;
-    gained_speed += gain;
-    const double x = start + motion.speed * (i + 1) * dt + gained_way;
-    travel.first = std::min(travel.first, x);
-    travel.last = std::max(travel.last, x);
+    const double share = motion.torque_share((i + 0.5) * dt);
+    for (Gain& gain : behind) gain.advance(share, grip, dt);
+    for (Gain& gain : ahead) gain.advance(share, grip, dt);
+    const double rolled = start + motion.speed * (i + 1) * dt;
+    const double rear = rolled + std::min(behind[0].way, behind[1].way);
+    travel.first = std::min(travel.first, rear);
+    travel.last = std::max(travel.last, rolled + std::max(ahead[0].way, ahead[1].way));
+    travel.sure = std::max(travel.sure, rear);
   }
   return travel;
 }
@@ -67,11 +112,11 @@ std::optional<double> duration_to(const Scene& scene, double x) {
   Scene longer = scene;
   double& duration = longer.motion->duration;
   for (int i = 0; i < kTries; ++i) {
-    const double lacking = x - travel_of(longer).last;
+    const double lacking = x - travel_of(longer).sure;
     if (lacking <= kNear) {
       const double digit = std::pow(10.0, std::floor(std::log10(duration)) - 3);
       duration = std::round(duration / digit) * digit;
-      return travel_of(longer).last >= x ? duration : duration + digit;
+      return travel_of(longer).sure >= x ? duration : duration + digit;
     }
     duration += lacking / std::max(longer.motion->speed, kSlowest);
   }

@@ -15,14 +15,24 @@ inline constexpr double kLargestPart = 0.75;
 
 /// The mass that traction drives. A guided wheel keeps its speed.
 struct DrivenWheel {
-  double load = 0;      ///< static wheel load [N]
-  double mass = 1;      ///< mass that the longitudinal contact force accelerates [kg]
-  double radius = 1;    ///< [m]
-  double friction = 0;  ///< largest coefficient of friction, beyond which no torque drives [-]
-  bool guided = false;  ///< at constant speed
+  double load = 0;            ///< static wheel load [N]
+  double mass = 1;            ///< mass that the longitudinal contact force accelerates [kg]
+  double radius = 1;          ///< [m]
+  double friction = 0;        ///< largest coefficient of friction, beyond which no torque drives [-]
+  bool guided = false;        ///< at constant speed
+  double own_mass = 1;        ///< part of `mass` that spins too: the wheel's [kg]
+  double least_friction = 0;  ///< all that friction may give where the wheel slides [-]
 
-  /// Acceleration under the full torque [m/s^2], negative under braking.
+  /// Largest acceleration by friction [m/s^2].
+  double grip() const { return guided ? 0 : friction * load / mass; }
+  /// Acceleration under the full torque [m/s^2], negative under braking: the largest in size that it may be.
   double acceleration(const MotionSpec& motion) const;
+  /// The least in size. A torque spins the wheel up, too; its inertia is own_mass * radius^2 at the most.
+  /// [theory.md, Connectors]
+  double least_acceleration(const MotionSpec& motion) const;
+  /// Largest change of speed by the slip of the start, MotionSpec::creepage, until friction has ended it
+  /// [m/s]; negative where the wheel brakes. The wheel's inertia is own_mass * radius^2 at the most.
+  double speed_of_slip(const MotionSpec& motion) const;
 };
 
 /// Static force on the wheel's journal or bore [N]: the vehicle's weight, or [load].
@@ -32,17 +42,20 @@ double carried_load(const Scene& scene);
 /// its crown is ignored.
 DrivenWheel driven_wheel(const Scene& scene);
 
-/// Farthest places of the wheel's centre.
+/// Bounds of the places of the wheel's centre.
 struct Travel {
   double first = 0;  ///< rearmost x: the start's, or less if brakes turn the wheel back [m]
   double last = 0;   ///< foremost x [m]
+  double sure =
+      0;  ///< foremost x that the wheel surely comes to: brakes at their most, a drive at its least [m]
 };
 
-/// Travel over motion.duration, with the traction's ramp and reversals; of a wheel at x = 0 without [motion].
+/// Travel over motion.duration, with the traction's ramp and reversals and the creepage of the start; of a
+/// wheel at x = 0 without [motion].
 Travel travel_of(const Scene& scene);
 
-/// motion.duration with which the wheel of a scene with [motion] rolls to x [m], to four digits [s]; nullopt
-/// if brakes stop it before.
+/// motion.duration with which the wheel of a scene with [motion] surely rolls to x [m], to four digits [s];
+/// nullopt if brakes may stop it before.
 std::optional<double> duration_to(const Scene& scene, double x);
 
 }  // namespace tread

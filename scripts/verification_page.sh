@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # scripts/verification_page.sh [CASE...]: runs `tread verify` as listed below for the named cases (default: all, some
 # hours) and puts the pages of docs/records/verification/ between the marks of docs/records/verification.md.
-# With --collect nothing is run. The tables of README.md and of docs/explanation/how-accurate.md follow.
+# With --collect nothing is run. The tables of README.md and of docs/explanation/how-accurate.md follow. Exit status 1: a
+# run failed, named at the end; a bound that fails stands in the page. `tread verify extremes` runs the other cases.
 set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 pages="$root/docs/records/verification"
@@ -49,11 +50,12 @@ runs=(
   'moving_frames --set rolling_steps=1e6 --set damping=0.02'
 )
 
+failed=()
 for run in "${runs[@]}"; do
   case=${run%% *}
   [[ ${1:-} == --collect ]] && break
   [[ $# -gt 0 && " $* " != *" $case "* ]] && continue
-  eval "\"$root/build/release/tread\" verify $run -o \"$pages\"" || true # a bound that fails stands in the page
+  eval "\"$root/build/release/tread\" verify $run -o \"$pages\"" || failed+=("$run: exit code $?")
 done
 
 order=$(printf '%s\n' "${runs[@]%% *}" | awk '!seen[$0]++')
@@ -65,3 +67,7 @@ for case in $order; do
   printf '\n'
 done | "$root/scripts/put_between_marks.sh" "$document" 'tread verify'
 "$root/scripts/accuracy_table.py"
+((${#failed[@]} == 0)) || {
+  printf 'failed: %s\n' "${failed[@]}" >&2
+  exit 1
+}

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -83,6 +84,7 @@ class ThreadRanks final : public Ranks {
                                  << " sends";
       ASSERT_EQ(from[at].bytes.size(), segment.bytes.size());
       std::memcpy(segment.bytes.data(), from[at++].bytes.data(), segment.bytes.size());
+      traffic.received += std::ssize(segment.bytes);
     }
     meeting_->barrier.arrive_and_wait();
   }
@@ -135,7 +137,7 @@ class SharedRun {
     const auto meeting = std::make_shared<Meeting>(count);
     for (int rank = 0; rank < count; ++rank) {
       models_.push_back(std::make_unique<Model>(of.scene(), of.deepest()));
-      const auto ranks = std::make_shared<ThreadRanks>(meeting, rank);
+      const auto ranks = ranks_.emplace_back(std::make_shared<ThreadRanks>(meeting, rank));
       ranks->shares = shares;
       choose_ranks(ranks);
       if (devices) choose_device(devices());
@@ -162,6 +164,8 @@ class SharedRun {
   }
   Simulation& front() const { return *simulations_.front(); }
   const std::vector<std::unique_ptr<Simulation>>& simulations() const { return simulations_; }
+  /// Bytes that rank 0 has got from single ranks in exchanges.
+  std::int64_t received() const { return ranks_.front()->traffic.received; }
 
  private:
   template <class Call>
@@ -180,6 +184,7 @@ class SharedRun {
           field.values);
   }
 
+  std::vector<std::shared_ptr<ThreadRanks>> ranks_;
   std::vector<std::unique_ptr<Model>> models_;
   std::vector<std::unique_ptr<Simulation>> simulations_;
 };

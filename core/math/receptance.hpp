@@ -6,7 +6,7 @@
 
 namespace tread {
 
-/// Force of a blow and the response to it at evenly spaced times.
+/// Force of a blow and the response to it at ascending times, two at least.
 struct BlowRecord {
   std::vector<double> time;      ///< [s]
   std::vector<double> force;     ///< [N]

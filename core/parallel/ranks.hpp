@@ -80,6 +80,8 @@ class Ranks {
   RankTraffic traffic;
   /// Shares of the elements' work, by rank, by which the next fields are cut; empty: these choose them.
   std::vector<double> shares;
+  /// Shares that the last fields got, in whole tiles; empty where other shares would not change them.
+  std::vector<double> dealt;
 
  private:
   /// `size`: 1, 4 or 8 bytes.

@@ -158,6 +158,17 @@ class RankRows {
   bool predicted_ = false;
 };
 
+/// Throws InputError for more ranks than pieces of work: a piece is a tile, or tiles that the loop takes
+/// together.
+void require_pieces(const std::vector<TileWork>& work, int ranks) {
+  const auto pieces = std::ranges::count_if(work, [](const TileWork& tile) { return !tile.with_next; });
+  if (ranks > pieces)
+    throw InputError(fmt::format(
+        "bench ranks: --ranks {}: the mesh has {} pieces that ranks can share; state {} at most, or a "
+        "smaller scene.element_size",
+        ranks, pieces, pieces));
+}
+
 }  // namespace
 
 void bench_ranks(const ResolvedScene& resolved, const BenchRanksOptions& options) {
@@ -170,9 +181,12 @@ void bench_ranks(const ResolvedScene& resolved, const BenchRanksOptions& options
       throw InputError(fmt::format("bench ranks: --parts {}: there are the ranks 0 to {}; state some of them",
                                    part, options.ranks - 1));
   require_no_bodies(scene, "bench ranks");
-  const Model model(scene, std::nullopt, require_memory);
+  const auto& corrugation = scene.corrugation;
+  const auto centre = corrugation ? std::optional(corrugation->centre.value_or(0)) : std::nullopt;
+  const Model model(scene, centre, require_memory_of_mesh);
   const StepLoads loads = loads_of(model);
   const std::vector<TileWork> work = tile_work(model, *model.internal);
+  require_pieces(work, options.ranks);
   const RankCut cut(model, work, expected_shares(model, work, options.ranks));
   SharedGroups groups(model, cut);
   groups.follow(loads.frame, 70 * loads.dt);

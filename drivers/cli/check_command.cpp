@@ -33,8 +33,8 @@ void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model = scene_model(resolved.scene, resolved);
   const std::int64_t files = file_bytes(resolved.source);
-  require_runnable(model, files);
   const Estimate cost = estimate(model, files);
+  require_runnable(model, cost.dt, files);
   if (options.json) {
     Json json = check_json(model, cost);
     if (advice) json["advice"] = advice_json(*advice);

@@ -80,6 +80,7 @@ void say_origin() {
 
 /// Refuses names that no file can have.
 std::string refusal_of_name(const std::string& name) {
+  if (name.empty()) return "the name is empty; state one, or leave the option out";
   constexpr std::size_t kLongest = 255;  // [B] of most file systems
   for (const std::filesystem::path& part : std::filesystem::path(name))
     if (part.native().size() > kLongest)

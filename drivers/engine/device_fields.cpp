@@ -308,7 +308,6 @@ const ElementSums& DeviceFields<Real, U>::energies() {
     typename DeviceSums<Real, U>::ElementFields of;
     of.u = arrays_.next.u.data();
     of.state = arrays_.now.state[index(b)].data();
-    if (this->energy_by_forces(b) && this->internal().damping(b) != 0) of.v = arrays_.next.v.data();
     if (!this->q() || !this->q()->branch(b)) return of;
     of.branch = &*this->q()->branch(b);
     of.lag = arrays_.lag.data();

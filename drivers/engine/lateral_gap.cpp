@@ -29,7 +29,7 @@ LateralGap lateral_gap(const SurfaceProfile& rail, const SurfaceProfile& wheel) 
   }
   const double curvature = denominator > 0 ? 2 * numerator / denominator : 0;
   const bool parallel = gap(highest) - gap(lowest) < kParallel;
-  return {lowest, 1 / std::max(curvature, 1e-2), parallel ? last - first : 0};
+  return {lowest, 1 / std::max(curvature, 1e-2), last - first, parallel ? last - first : 0};
 }
 
 }  // namespace tread

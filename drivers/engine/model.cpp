@@ -344,7 +344,7 @@ void Model::build_contact(const Corrugation& shape) {
   options.wheel_radius = wheel_radius();
   // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
   // 2R.
-  const double per_width = scene.plane_strain ? line_load() : 0;
+  const double per_width = line_width > 0 ? line_load() : 0;
   const double border_gap = std::max(hertz_patch.approach, 2 * per_width / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   options.static_force = wheel_load();

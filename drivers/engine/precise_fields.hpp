@@ -174,12 +174,6 @@ class PreciseFields : public NodeFields {
   const Mesh& mesh() const { return model_->mesh; }
   /// The tiles whose values the views hold; null: all.
   virtual const TileShare* share() const { return nullptr; }
-  /// True where element_energy() of a block is u . K u / 2 by the force, which holds K (u + beta v) alone.
-  bool energy_by_forces(int b) const {
-    return std::is_same_v<Real, double> &&
-           mesh().blocks[static_cast<std::size_t>(b)].sweep == Sweep::extruded && !(q_ && q_->branch(b)) &&
-           is_linear(internal().law(b));
-  }
   /// Unknowns that forces do not move.
   const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
   const BasicInternalForce<Real, U>& internal() const { return *operator_; }
@@ -245,6 +239,12 @@ class PreciseFields : public NodeFields {
     if (model.guide)
       unknowns.insert(unknowns.end(), model.guide->unknowns().begin(), model.guide->unknowns().end());
     return unknowns;
+  }
+  /// True where element_energy() of a block is u . K u / 2 by the force, which holds K u alone.
+  bool energy_by_forces(int b) const {
+    return std::is_same_v<Real, double> &&
+           mesh().blocks[static_cast<std::size_t>(b)].sweep == Sweep::extruded &&
+           internal().damping(b) == 0 && is_linear(internal().law(b));
   }
   ElementEnergy element_energy(int number, int tile) const {
     if constexpr (std::is_same_v<Real, double>)

@@ -19,6 +19,7 @@
 #include "drivers/engine/static_loads.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/engine/traction.hpp"
+#include "kernels/contact/rail_line.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 
 namespace tread {
@@ -90,6 +91,8 @@ void describe(const Model& model, Preload& out) {
   if (model.contact) {
     model.contact->require_room(out.wheel);
     out.contact = model.contact->totals();
+    const SweptBlock& rail = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
+    out.rail_rise = RailLine(rail, out.contact.centre.y).rise(out.displacement.data());
     out.max_pressure = model.contact->nodes().max_pressure();
   }
   const double* u = out.displacement.data();
@@ -225,9 +228,11 @@ void Equilibrium::residual(Preload& state, double* r) {
   add_steady_inertia(*model_, motion_.speed, motion_.spin, u, r);
   finish(state, r);
   if (!held_) return;
-  const auto work = held_->work(r);
-  state.held_force_x = work[0];
-  state.held_moment = work[1];
+  if (state.traction == 0) {  // else they are the inertia of the wheel that it speeds up
+    const auto work = held_->work(r);
+    state.held_force_x = work[0];
+    state.held_moment = work[1];
+  }
   held_->balance(r);
 }
 
@@ -302,6 +307,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   // Linear systems are solved to this share of their right sides: the more roughly, the less the last
   // iteration gained. At 0.5 points keep entering and leaving the patch.
   constexpr double kForcing = 0.03, kRoughly = 0.1;
+  if (model.scene.motion) refuse_heavy_damping(model);
   const auto n = 3 * model.mesh.slots;
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
@@ -339,7 +345,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       if (rolls || (!motion.rolling && motion.traction == 0)) break;
       rolls = true;
       first = iteration;
-      if (motion.rolling) out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      if (motion.rolling) {
+        out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+        out.run_in_change = out.run_in->change;
+      }
       if (motion.traction != 0)
         out.free_spin = free_spin(model, out.displacement, out.wheel, model.scene.motion->speed);
       // F_L stays where the fastenings change F_N.

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
@@ -31,6 +33,7 @@ struct Preload {
   double residual = 0;   ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   std::int64_t newton_iterations = 0;
   std::int64_t cg_iterations = 0;
+  // Without traction:
   double held_force_x = 0;  ///< reaction of the held longitudinal motion of the wheel [N]
   double held_moment = 0;   ///< reaction of its held rotation about the axle [N m]
   // At rest, before any run-in:
@@ -39,9 +42,11 @@ struct Preload {
   double rail_deflection = 0;  ///< downwards, of the rail's foot under the wheel [m]
   double slab_deflection = 0;  ///< [m]
   ContactTotals contact;
-  double max_pressure = 0;  ///< nodal average [Pa]
+  double max_pressure = 0;        ///< nodal average [Pa]
+  double run_in_change = 0;       ///< RunIn::change of a start as after a long way [-]
+  std::vector<double> rail_rise;  ///< RailLine::rise() through the patch's centre [m]; empty without contact
 
-  /// Lists the values that are of use once rolling has begun.
+  /// Lists the values, fields aside, that are of use once rolling has begun.
   void list_state(StateList& list) {
     list.add("wheel_frame", wheel);
     list.add("traction", traction);
@@ -57,6 +62,7 @@ struct Preload {
     list.add("slab_deflection", slab_deflection);
     list.add_records("contact", std::span(&contact, 1));
     list.add("max_pressure", max_pressure);
+    list.add("run_in_change", run_in_change);
   }
 };
 
@@ -82,7 +88,8 @@ struct SectionPose {
 /// Pose of the rail's head at a place along it [m], by both ends of its running surface.
 SectionPose head_pose(const Model& model, ConstNodeField displacement, double x);
 
-/// Throws NumericalError if Newton's method or the linear solver does not converge.
+/// Throws NumericalError if Newton's method or the linear solver does not converge, InputError if the scene
+/// moves and refuse_heavy_damping() refuses it.
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);
 
 }  // namespace tread

@@ -120,6 +120,12 @@ RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, std::spa
     find_halos(model.mesh);
 }
 
+std::vector<std::vector<TileStretch>> RankCut::by_rank(const std::vector<std::int64_t>& tiles) const {
+  std::vector<std::vector<TileStretch>> stretches(stretches_.size());
+  for (const std::int64_t tile : tiles) append(stretches[index(rank_of(index(tile)))], index(tile));
+  return stretches;
+}
+
 /// Tiles that the loop takes together are one piece. Pieces are linked along the sweep and by ties.
 void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work,
                        std::span<const double> shares) {

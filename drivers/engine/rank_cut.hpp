@@ -65,6 +65,8 @@ class RankCut {
   int rank_of(std::size_t tile) const { return rank_[tile]; }
   int owner(std::int64_t group) const { return owner_[index(group)]; }
   const std::vector<TileStretch>& stretches(int rank) const { return stretches_[index(rank)]; }
+  /// Some of the tiles, by rank.
+  std::vector<std::vector<TileStretch>> by_rank(const std::vector<std::int64_t>& tiles) const;
   /// None with halos.
   const std::vector<Joint>& joints() const { return joints_; }
   /// Tiles of others before and behind a rank's own; none with joints.

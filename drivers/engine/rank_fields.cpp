@@ -31,7 +31,9 @@ template <class Internal>
 RankCut cut_of(const Model& model, const Internal& internal, Ranks& ranks, Borders borders) {
   const std::vector<TileWork> work = tile_work(model, internal);
   if (ranks.shares.empty()) ranks.shares = expected_shares(model, work, ranks.count());
-  return {model, work, ranks.shares, borders};
+  RankCut cut(model, work, ranks.shares, borders);
+  ranks.dealt = dealt_shares(cut, work);
+  return cut;
 }
 
 }  // namespace
@@ -168,7 +170,7 @@ void RankFields<Real, U>::show(const WatchedNodes& nodes) {
   share_groups(this->u().data(), nodes.groups());
   share_groups(this->v().data(), nodes.groups());
   if (this->q()) share_groups(this->q()->values().data(), nodes.groups());
-  send_law_state(Way::to_rank_0);
+  if (!nodes.tiles().empty()) send_law_state(Way::to_rank_0, cut_.by_rank(nodes.tiles()));
 }
 
 template <class Real, class U>
@@ -216,37 +218,39 @@ void RankFields<Real, U>::require_one_cut() {
 
 template <class Real, class U>
 void RankFields<Real, U>::send_all_tiles(Way way) {
+  ByRank tiles;
+  for (int rank = 0; rank < cut_.ranks(); ++rank) {
+    std::vector<TileStretch>& of_rank = tiles.emplace_back(cut_.stretches(rank));
+    const std::vector<TileStretch>& halo = cut_.halo(rank);
+    if (way == Way::from_rank_0) of_rank.insert(of_rank.end(), halo.begin(), halo.end());
+  }
   const auto of_tile = [this](std::size_t tile) { return kGroupValues * cut_.first_group(tile); };
-  send_tiles(way, this->u().data(), of_tile);
-  send_tiles(way, this->v().data(), of_tile);
-  if (this->q()) send_tiles(way, this->q()->values().data(), of_tile);
-  send_law_state(way);
+  send_tiles(way, tiles, this->u().data(), of_tile);
+  send_tiles(way, tiles, this->v().data(), of_tile);
+  if (this->q()) send_tiles(way, tiles, this->q()->values().data(), of_tile);
+  send_law_state(way, tiles);
 }
 
-/// Values of the other ranks' tiles, from rank 0 with their halos. Those of the tiles [first, last) lie at
-/// [place(first), place(last)).
+/// Values of the other ranks' tiles among these. Those of [first, last) lie at [place(first), place(last)).
 template <class Real, class U>
 template <class T, class Place>
-void RankFields<Real, U>::send_tiles(Way way, T* values, const Place& place) {
+void RankFields<Real, U>::send_tiles(Way way, const ByRank& tiles, T* values, const Place& place) {
   std::vector<RankSegment> of_tiles;
   for (int rank = 1; rank < cut_.ranks(); ++rank) {
     if (ranks_->rank() != 0 && ranks_->rank() != rank) continue;
-    const auto add = [&](const std::vector<TileStretch>& stretches) {
-      for (const TileStretch& stretch : stretches)
-        of_tiles.push_back(
-            {ranks_->rank() == 0 ? rank : 0,
-             std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
-    };
-    add(cut_.stretches(rank));
-    if (way == Way::from_rank_0) add(cut_.halo(rank));
+    for (const TileStretch& stretch : tiles[index(rank)])
+      of_tiles.push_back(
+          {ranks_->rank() == 0 ? rank : 0,
+           std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
   }
   const bool sends = (way == Way::from_rank_0) == (ranks_->rank() == 0);
   exchange_one_way(sends, of_tiles);
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::send_law_state(Way way) {
-  for_law_blocks([&](int b, const auto& place) { send_tiles(way, this->law_state()->values(b), place); });
+void RankFields<Real, U>::send_law_state(Way way, const ByRank& tiles) {
+  for_law_blocks(
+      [&](int b, const auto& place) { send_tiles(way, tiles, this->law_state()->values(b), place); });
 }
 
 template <class Real, class U>
@@ -350,12 +354,6 @@ void RankFields<Real, U>::advance_lag(double dt) {
   for (const auto* stretches : {&own_stretches(), &halo()}) cut_.for_groups(*stretches, advance);
   for (const Joint& joint : cut_.joints())
     if (joint.near == ranks_->rank()) advance(joint.slot / kLanes, joint.slot / kLanes + joint.nodes);
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel,
-                                 double dt) {
-  body.anchor(mean, this->displacement(), this->velocity(), wheel, dt, moved_.data());
 }
 
 /// Whoever reads another rank's values without having got them is found out.

@@ -55,7 +55,9 @@ class RankFields : public PreciseFields<Real, U> {
   }
   void spread_patch(bool measured) override;
   void advance_lag(double dt) override;
-  void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
+  void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override {
+    body.anchor(mean, this->displacement(), this->velocity(), wheel, dt, moved_.data());
+  }
   void list_state(StateList& list) override;
 
  protected:
@@ -113,10 +115,11 @@ class RankFields : public PreciseFields<Real, U> {
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
   void require_one_cut();
   enum class Way { to_rank_0, from_rank_0 };
+  using ByRank = std::vector<std::vector<TileStretch>>;
   template <class T, class Place>
-  void send_tiles(Way way, T* values, const Place& place);
+  void send_tiles(Way way, const ByRank& tiles, T* values, const Place& place);
   void send_all_tiles(Way way);
-  void send_law_state(Way way);
+  void send_law_state(Way way, const ByRank& tiles);
   struct Halo {
     int other;  ///< rank that sends or gets its values
     std::vector<std::int64_t> groups;

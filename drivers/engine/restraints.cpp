@@ -15,7 +15,8 @@ class Restraints {
   Restraints(const Scene& scene, const TiedBodies& bodies) : scene_(scene), bodies_(bodies) {}
 
   std::vector<std::int64_t> collect() {
-    if (!scene_.pulse) hold_rail();  // under a pulse it is a free bar
+    if (!scene_.pulse) hold_rail_ends();  // under a pulse they are free
+    if (bodies_.index.rail_cap >= 0) hold_foot();
     if (bodies_.index.slab >= 0) hold_slab(block(bodies_.index.slab));
     for (const int b : bodies_.index.sleepers) hold_sleeper(block(b));
     if (scene_.plane_strain)
@@ -48,13 +49,12 @@ class Restraints {
 
   void hold(std::int64_t slot, int component) { unknowns_.push_back(dof(slot, component)); }
 
-  void hold_rail() {
+  void hold_rail_ends() {
     for (const int b : bodies_.index.rail())
       for (int node = 0; node < block(b).section.nodes(); ++node)
         for (const int station : {0, block(b).station_count() - 1}) hold(block(b), node, station, 0);
     if (bodies_.index.base_body >= 0)
       hold_ends(bodies_.mesh.bodies[static_cast<std::size_t>(bodies_.index.base_body)]);
-    if (bodies_.index.rail_cap >= 0) hold_foot();
   }
 
   /// Nodes of a body in the planes of its ends.

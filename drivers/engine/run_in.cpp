@@ -149,7 +149,7 @@ RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
     const double change = std::min(difference(last, all.first(kStepsOfSpan)),
                                    shorter.empty() ? vehicle.load() : difference(last, shorter));
     if (2 * spans > kMostSpans || change < kSettled * vehicle.load())
-      return {std::move(beam), std::move(passage), bending_at_rest};
+      return {std::move(beam), std::move(passage), bending_at_rest, change / vehicle.load()};
     shorter.assign(last.begin(), last.end());
   }
 }
@@ -162,6 +162,7 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   const BeamPassage& passage = running.passage;
 
   RunIn out;
+  out.change = running.change;
   out.force = passage.force();
   out.wheel_speed = passage.wheel_speed();
   out.stretch = passage.sprung() - passage.wheel() - passage.bending() - vehicle.static_stretch();

@@ -38,11 +38,13 @@ struct RunningWheel {
   std::unique_ptr<TrackBeam> beam;  ///< that the passage refers to
   BeamPassage passage;
   double bending_at_rest = 0;  ///< [m]
+  double change = 0;           ///< of the force over the last span, as above, over the load [-]
 };
 RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle);
 
 /// The state at the start less the static one under the same contact force; deflections and speeds downwards.
 struct RunIn {
+  double change = 0;         ///< of the running wheel; a Preload keeps it [-]
   double force = 0;          ///< F_N [N]
   double wheel_speed = 0;    ///< of the rim [m/s]
   double bending_speed = 0;  ///< of the journal beyond the rim's over its static deflection [1/s]

@@ -46,7 +46,7 @@ void Simulation::start(const Preload& preload) {
   AlignedVector<double> v(u.size(), 0.0);
   frame_ = preload.wheel;
   const StartFields fields{u, v, frame_};
-  const StaticStart at{u.data(), v.data(), frame_, dt_, preload.traction};
+  const StaticStart at{u.data(), v.data(), frame_, dt_, preload.traction, preload.rail_rise};
   for (const auto& feature : features_.all()) feature->settle(at);
   place_run_in(*model_, preload.run_in, fields);
   for (const auto& feature : features_.all()) feature->meet(at);

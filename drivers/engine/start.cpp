@@ -177,14 +177,19 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
 }
 
 void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& fields) {
-  for (const SweptBlock& block : model.mesh.blocks)
-    for (int station = 0; station < block.station_count(); ++station) {
-      if (block.stations[static_cast<std::size_t>(station)] >= block.stations.front() + pulse.length)
-        continue;
+  const double end = pulse.length - model.scene.rail->origin;
+  const auto start_node = [&](std::int64_t slot, double x) {
+    if (x < end) fields.velocity[static_cast<std::size_t>(dof(slot, 0))] = pulse.velocity;
+  };
+  for (const int b : model.index.rail()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station)
       for (int node = 0; node < block.section.nodes(); ++node)
-        fields.velocity[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
-            pulse.velocity;
-    }
+        start_node(block.base + block.slot(node, station), block.stations[static_cast<std::size_t>(station)]);
+  }
+  for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) { start_node(slot, at.x); });
+  for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
+  if (model.ties) model.ties->follow({fields.velocity.data()});
 }
 
 }  // namespace

@@ -26,16 +26,27 @@ AlignedVector<double> StaticSystem::diagonal() const {
   return diagonal;
 }
 
-void StaticSystem::apply(double* x, double* y) const {
+void StaticSystem::apply(double* x, double* y, std::span<const double> factors) const {
   const double rise = model_->guide ? x[model_->guide->unknown()] : 0;
   expand(x);
   model_->apply_stiffness(x, y);
+  for (std::size_t part = 0; part < factors.size(); ++part) scale(static_cast<int>(part), factors[part], y);
   if (model_->ties) model_->ties->clear(x);
   if (model_->guide) {
     for (const std::int64_t unknown : model_->guide->unknowns()) x[unknown] = 0;
     x[model_->guide->unknown()] = rise;
   }
   reduce(y);
+}
+
+/// Multiplies a vector field at the nodes of a block or body.
+void StaticSystem::scale(int part, double factor, double* field) const {
+  const HexBody* body = model_->mesh.body_of(part);
+  const SweptBlock* block = body ? nullptr : &model_->mesh.blocks[static_cast<std::size_t>(part)];
+  double* const first = field + 3 * (body ? body->base : block->base);
+  for_chunks(3 * (body ? body->slots() : block->slots()), [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t i = from; i < to; ++i) first[i] *= factor;
+  });
 }
 
 void StaticSystem::reduce(double* force) const {
@@ -55,41 +66,56 @@ namespace {
 /// shorten it a thousand times.
 constexpr double kLeastShare = 0.5;
 
-void refuse_heavy_damping(double beta, double omega) {
-  const double free_step = stable_step(omega, 0);
-  const double damped_step = stable_step(omega, beta);
-  if (damped_step >= kLeastShare * free_step) return;
-  const double largest = (1 / kLeastShare - kLeastShare) / omega;
-  throw InputError(fmt::format(
-      "material damping: a stiffness-proportional beta of {:.3g} s needs a time step of 2/w (sqrt(1 + xi^2) "
-      "- "
-      "xi) = {:.2e} s, {:.2g} % of the 2/w = {:.2e} s without damping (w = {:.3e} rad/s, xi = beta w/2 = "
-      "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
-      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF), "
-      "or with this beta damping_up_to = \"3 kHz\" or another frequency that is enough",
-      beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega,
-      100 * kLeastShare, largest, 0.5 * largest * omega));
-}
+/// Tolerance of the stable step [-].
+constexpr double kStepTolerance = 1e-3;
+constexpr int kMostIterations = 50;
 
-/// Factor by which damping stiffens the bodies at the limit of the step dt: 1 + g + 2 beta / dt, with the
-/// largest of all blocks. [theory.md, eqs. 12, 12f]
+/// Factor by which damping stiffens bodies at the limit of the step dt: 1 + g + 2 beta / dt.
+/// [theory.md, eqs. 12, 12f]
 struct Stiffening {
   double branch = 1;  ///< 1 + g [-]
   double beta = 0;    ///< [s]
 
-  explicit Stiffening(const Model& model) {
-    for (const double of_block : model.beta) beta = std::max(beta, of_block);
-    for (const std::optional<MaxwellBranch>& of_block : model.branches)
-      if (of_block) branch = std::max(branch, 1 + of_block->strength);
-    for (const auto& body : model.body_forces) {
-      beta = std::max(beta, body->beta());
-      if (body->branch()) branch = std::max(branch, 1 + body->branch()->strength);
-    }
-  }
+  bool operator==(const Stiffening&) const = default;
   double at(double dt) const { return branch + 2 * beta / dt; }
   /// Stable step of bodies of the frequency omega [s].
   double stable_step(double omega) const {
     return tread::stable_step(omega * std::sqrt(branch), beta / branch);
+  }
+};
+
+/// By part.
+std::vector<Stiffening> stiffenings(const Model& model) {
+  std::vector<Stiffening> list;
+  for (int part = 0; part < model.mesh.parts(); ++part) {
+    const BodyForce* body = model.body_force_of(part);
+    const auto b = static_cast<std::size_t>(part);
+    const std::optional<MaxwellBranch>& branch = body ? body->branch() : model.branches[b];
+    list.push_back({branch ? 1 + branch->strength : 1, body ? body->beta() : model.beta[b]});
+  }
+  return list;
+}
+
+/// As much as any part has of each kind of damping.
+Stiffening largest_of(const std::vector<Stiffening>& parts) {
+  Stiffening largest;
+  for (const Stiffening& part : parts) {
+    largest.branch = std::max(largest.branch, part.branch);
+    largest.beta = std::max(largest.beta, part.beta);
+  }
+  return largest;
+}
+
+/// Damping of the materials: that of all parts, or of each part its own.
+struct MaterialDamping {
+  Stiffening all;                      ///< none where the parts have their own
+  std::vector<Stiffening> parts = {};  ///< empty: `all`
+
+  /// Of the stiffness, by part, at the limit of the step dt [-].
+  std::vector<double> factors(double dt) const {
+    std::vector<double> list;
+    for (const Stiffening& part : parts) list.push_back(part.at(dt));
+    return list;
   }
 };
 
@@ -116,20 +142,24 @@ class AssembledBodies {
     return std::any_of(damping_.begin(), damping_.end(), [](double c) { return c > 0; });
   }
 
-  /// From above, material damping aside; with dampers as the springs (k + 2 c / dt) / stiffening that
-  /// they are at the limit of the step dt, or without them [rad/s]. NumericalError if it is not finite.
-  double frequency() const { return frequency_with(springs_); }
-  double frequency(const Stiffening& material, double dt) const {
+  /// From above, without damping [rad/s]. NumericalError if it is not finite.
+  double frequency() const { return frequency_with(springs_, {}); }
+  /// The same of parts as stiff as their own damping makes them at the limit of the step dt.
+  double frequency(const MaterialDamping& material, double dt) const {
+    return frequency_with(springs_, material.factors(dt));
+  }
+  /// The same with dampers as the springs (k + 2 c / dt) / stiffening of all parts that they are there.
+  double frequency_with_dampers(const MaterialDamping& material, double dt) const {
     std::vector<Spring> springs = springs_;
     for (std::size_t i = 0; i < springs.size(); ++i)
-      springs[i].stiffness = (springs[i].stiffness + 2 * damping_[i] / dt) / material.at(dt);
-    return frequency_with(springs);
+      springs[i].stiffness = (springs[i].stiffness + 2 * damping_[i] / dt) / material.all.at(dt);
+    return frequency_with(springs, material.factors(dt));
   }
 
  private:
-  double frequency_with(const std::vector<Spring>& springs) const {
+  double frequency_with(const std::vector<Spring>& springs, const std::vector<double>& factors) const {
     const Operator elastic = [&](double* x, double* y) {
-      system_.apply(x, y);
+      system_.apply(x, y, factors);
       add_springs(springs, x, y);
     };
     const double omega = highest_frequency(elastic, inverse_mass_).omega;
@@ -163,21 +193,38 @@ struct AssembledStep {
   double stable = 0;    ///< with all dampers [s]
 };
 
+/// Damping of the materials that `step.material` is made with. All parts as damped as any of them are on the
+/// safe side. Where that takes much and they differ, the answer comes up from there: in a longer step each
+/// part's own damping stiffens it less.
+MaterialDamping find_material_step(const Model& model, const AssembledBodies& bodies, AssembledStep& step) {
+  const std::vector<Stiffening> parts = stiffenings(model);
+  const MaterialDamping own{{}, parts};
+  MaterialDamping damping{largest_of(parts)};
+  step.material = damping.all.stable_step(step.omega);
+  const bool alike = std::ranges::count(parts, damping.all) == std::ssize(parts);
+  if (alike || step.material >= (1 - kStepTolerance) * stable_step(step.omega, 0)) return damping;
+  for (int i = 0; i < kMostIterations; ++i) {
+    const double next = stable_step(bodies.frequency(own, step.material), 0);
+    if (next <= (1 + kStepTolerance) * step.material) break;
+    step.material = next;
+    damping = own;
+  }
+  return damping;
+}
+
 AssembledStep assembled_step(const Model& model) {
   const AssembledBodies bodies(model);
-  const Stiffening material(model);
   AssembledStep step;
   step.omega = bodies.frequency();
-  step.material = step.stable = material.stable_step(step.omega);
+  const MaterialDamping material = find_material_step(model, bodies, step);
+  step.stable = step.material;
   // A shorter step makes the dampers stiffer: comes down on the answer from above and takes a little less.
-  constexpr double kTolerance = 1e-3;
-  constexpr int kMaxIterations = 50;
   double last = step.material;
-  for (int i = 0; bodies.damped() && i < kMaxIterations; ++i) {
-    const double next = material.stable_step(bodies.frequency(material, last));
-    const bool settled = next >= (1 - kTolerance) * last;
+  for (int i = 0; bodies.damped() && i < kMostIterations; ++i) {
+    const double next = material.all.stable_step(bodies.frequency_with_dampers(material, last));
+    const bool settled = next >= (1 - kStepTolerance) * last;
     if (settled && i == 0) break;  // the dampers do not matter
-    step.stable = (1 - 2 * kTolerance) * next;
+    step.stable = (1 - 2 * kStepTolerance) * next;
     if (settled) break;
     last = next;
   }
@@ -203,7 +250,44 @@ std::vector<StiffestElement> stiffest_elements(const Model& model) {
   return list;
 }
 
+const Material& material_of(const Model& model, std::size_t part) {
+  const HexBody* body = model.mesh.body_of(static_cast<int>(part));
+  return body ? body->materials.front() : model.mesh.blocks[part].materials.front();
+}
+
 }  // namespace
+
+void refuse_heavy_damping(const Model& model) {
+  constexpr double kMostFraction = 0.5 * (1 / kLeastShare - kLeastShare);  // leaves that share
+  const std::vector<Stiffening> parts = stiffenings(model);
+  bool suspect = false;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const double fraction = material_of(model, part).high_frequency_fraction;
+    suspect |= parts[part].beta > 0 && (fraction == 0 || fraction > kMostFraction);
+  }
+  if (!suspect) return;
+  StepLimit limit;
+  limit.stiffest = stiffest_elements(model);
+  const double free_step = limit.stiffest[limit.stiffest_block()].step;
+  const double least = kLeastShare * free_step;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const double beta = parts[part].beta;
+    const double omega = 2 / limit.stiffest[part].step;
+    const double damped_step = stable_step(omega, beta);
+    if (beta == 0 || !(damped_step < (1 - 1e-9) * least)) continue;
+    const double largest = 0.995 * 0.5 * (4 / (omega * omega * least) - least);  // printed, it is still less
+    throw InputError(fmt::format(
+        "material damping: a stiffness-proportional beta of {:.3g} s of material.{} needs a time step of 2/w "
+        "(sqrt(1 + xi^2) - xi) = {:.2e} s in the stiffest element of {} (w = {:.3e} rad/s, xi = beta w/2 = "
+        "{:.3g}), {:.2g} % of the {:.2e} s of the mesh without damping; at least {:g} % must be left: state "
+        "rayleigh_beta of at most {:.3g} s, or {{ kind = \"high_frequency_fraction\", value = xi }} with xi "
+        "of at most {:.3g} (LS-DYNA's positive COEF), or with this beta damping_up_to = \"3 kHz\" or another "
+        "frequency that is enough",
+        beta, material_of(model, part).name, damped_step, limit.stiffest[part].name, omega,
+        0.5 * beta * omega, 100 * damped_step / free_step, free_step, 100 * kLeastShare, largest,
+        std::min(1.0, 0.5 * largest * omega)));
+  }
+}
 
 double stable_step_of(const Model& model) {
   return assembled_step(model).stable;
@@ -216,12 +300,12 @@ std::size_t StepLimit::stiffest_block() const {
 }
 
 StepLimit step_limit(const Model& model) {
+  refuse_heavy_damping(model);
   StepLimit limit;
   const AssembledStep step = assembled_step(model);
   const double omega = step.omega;
-  const Stiffening material(model);
+  const Stiffening material = largest_of(stiffenings(model));
   limit.stable_step = step.stable;
-  refuse_heavy_damping(material.beta, omega);
   limit.stiffest = stiffest_elements(model);
   const StiffestElement& stiffest = limit.stiffest[limit.stiffest_block()];
   limit.reason = fmt::format(

@@ -1,6 +1,8 @@
 #pragma once
 // The constrained stiffness operator of a model: elasticity on the free unknowns, secondary nodes eliminated.
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -14,8 +16,8 @@ class StaticSystem {
   explicit StaticSystem(const Model& model) : model_(&model) {}
 
   /// y = T^T K T x on the free unknowns, springs not included; x is zero elsewhere. Fills secondary nodes and
-  /// guided bore of x while it runs.
-  void apply(double* x, double* y) const;
+  /// guided bore of x while it runs. `factors` of the parts' stiffnesses; none: 1.
+  void apply(double* x, double* y, std::span<const double> factors = {}) const;
 
   /// Zero at secondary nodes and restrained unknowns: forces of secondary nodes go to their primaries first.
   void reduce(double* force) const;
@@ -27,6 +29,8 @@ class StaticSystem {
   AlignedVector<double> diagonal() const;
 
  private:
+  void scale(int part, double factor, double* field) const;
+
   const Model* model_;
 };
 
@@ -47,7 +51,11 @@ struct StepLimit {
   std::size_t stiffest_block() const;
 };
 
-/// InputError where damping takes more than half of the step.
+/// InputError where a part's damping takes more than half of the step that the mesh has without damping, by
+/// the elements alone.
+void refuse_heavy_damping(const Model& model);
+
+/// InputError where refuse_heavy_damping() throws.
 StepLimit step_limit(const Model& model);
 
 /// Largest stable step of the assembled bodies, however short [s].

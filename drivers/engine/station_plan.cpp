@@ -49,14 +49,14 @@ double half_patch(const Scene& scene) {
   return scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
 }
 
+}  // namespace
+
 bool stands(const Scene& scene) {
   constexpr double kHardly = 1e-3;  // [m]
   if (!scene.motion) return true;
   const Travel travel = travel_of(scene);
   return scene.motion->speed == 0 && travel.last - travel.first < kHardly;
 }
-
-}  // namespace
 
 Span zone_span(const Scene& scene) {
   const double half = half_patch(scene);

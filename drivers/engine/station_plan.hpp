@@ -35,6 +35,9 @@ struct Span {
 /// times duration, which the way that traction adds uses first; empty without [wheel].
 Span run_span(const Scene& scene);
 
+/// Returns true if the wheel hardly moves: at speed 0 less than 1 mm, or without [motion].
+bool stands(const Scene& scene);
+
 /// Stretch of the finely divided track: the solution zone and half a patch about it, or what the wheel can
 /// touch where it stands elsewhere.
 Span zone_span(const Scene& scene);

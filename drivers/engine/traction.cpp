@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "drivers/engine/lateral_gap.hpp"
 #include "kernels/half_space/half_space_steady.hpp"
 
 namespace tread {
@@ -20,6 +21,15 @@ double spin_up(const Model& model) {
   const double mass = model.wheelset->mass() + (vehicle ? vehicle->mass_along() : 0.0);
   const double radius = model.wheel_radius();
   return 1 + model.wheelset->inertia() / (mass * radius * radius);
+}
+
+/// Width of a patch whose length is that of a line contact [m]: of bodies that are parallel across, or that
+/// end within the ellipse of their curvatures; otherwise 0.
+double width_of_line(const Model& model) {
+  if (model.line_width > 0) return model.line_width;
+  const SurfacePair& surfaces = model.contact->surfaces();
+  const double facing = lateral_gap(surfaces.rail_profile(), surfaces.wheel_profile()).facing;
+  return model.hertz_patch.semi_axis_y > 0.5 * facing ? facing : 0;
 }
 
 }  // namespace
@@ -60,9 +70,11 @@ double start_creepage(const Model& model, double traction) {
   if (stated != 0 || traction == 0) return stated;
   const double load = model.wheel_load();
   const double friction = model.contact->friction_at_rest(model.scene.start_x());
-  if (model.line_width > 0) {
+  if (const double width = width_of_line(model); width > 0) {
     const double sticking = std::sqrt(1 - std::abs(traction) / friction);  // part of the patch [Carter 1926]
-    return std::copysign(friction * model.line_semi_axis() / model.wheel_radius() * (1 - sticking), traction);
+    const double semi_axis =
+        line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(), load / width);
+    return std::copysign(friction * semi_axis / model.wheel_radius() * (1 - sticking), traction);
   }
   const double cell = std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y) / kCells;
   const half_space::SteadyCase rolling{model.scene.elastic_pair().alike(),

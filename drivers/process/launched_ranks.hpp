@@ -9,7 +9,8 @@
 namespace tread {
 
 /// The ranks of this process's launcher; null where the process is alone, and the library of messages then
-/// stays untouched. Throws InputError where this build cannot join the others.
+/// stays untouched. Throws InputError where the others cannot be joined: by a build without such a library,
+/// or with another one than the launcher's.
 std::shared_ptr<Ranks> launched_ranks();
 
 /// Name and version of the library of messages; empty where the program was built without.

@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
+#include "drivers/process/group_limits.hpp"
 #include "drivers/process/standard_files.hpp"
 
 namespace tread {
@@ -33,12 +34,14 @@ std::vector<int> allowed_cores() {
 
 int machine_cores() {
   const std::vector<int> cores = allowed_cores();
-  return cores.empty() ? std::max(1, static_cast<int>(std::thread::hardware_concurrency()))
-                       : static_cast<int>(cores.size());
+  const int allowed = cores.empty() ? std::max(1, static_cast<int>(std::thread::hardware_concurrency()))
+                                    : static_cast<int>(cores.size());
+  return std::min(allowed, group_limits().cores);
 }
 
 std::int64_t machine_memory() {
-  return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
+  const std::int64_t all = std::int64_t{::sysconf(_SC_PHYS_PAGES)} * ::sysconf(_SC_PAGE_SIZE);
+  return std::min(all, group_limits().memory);
 }
 
 void use_threads(const ThreadOptions& options) {

@@ -16,9 +16,9 @@ struct ThreadOptions {
 
 /// Numbers of the cores that this process may use; empty where the machine does not say.
 std::vector<int> allowed_cores();
-/// Number of cores that this process may use.
+/// Number of cores that this process may use: allowed_cores(), or fewer by group_limits().
 int machine_cores();
-/// Memory of the machine [B].
+/// Memory of the machine, or of the container that this process runs in [B].
 std::int64_t machine_memory();
 
 /// Sets the number, the backend and the cores of the threads; by default this rank's share of the cores.

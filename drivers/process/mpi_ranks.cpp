@@ -188,7 +188,11 @@ class MpiRanks final : public Ranks {
 std::shared_ptr<Ranks> launched_ranks() {
   if (launched_count() == 1) return nullptr;
   auto ranks = std::make_shared<MpiRanks>();
-  return ranks->count() > 1 ? ranks : nullptr;
+  if (ranks->count() > 1) return ranks;
+  if (launched_count() == 0) return nullptr;
+  refuse_launch("the MPI of this program, " + rank_library() +
+                ", sees one alone, and each would do the whole work; start them with the mpirun of this "
+                "MPI, or one without a launcher");
 }
 
 std::string rank_library() {

@@ -32,15 +32,16 @@ Figure receptance_figure(const Scene& scene, const RunResults& r) {
   // A half sine of duration T has lost nine tenths of its spectrum at 1.2 / T; a record of length D resolves
   // 1 / D; samples dt apart show no more than 1 / (4 dt) well.
   const double length = r.samples.back().time;
-  const double interval = length / static_cast<double>(std::max<std::size_t>(r.samples.size() - 1, 1));
-  const double first = 2 / length;
-  const double last = std::min(1.2 / scene.hammer->duration, 0.25 / interval);
+  double interval = r.samples.front().time;  // the longest
   BlowRecord record;
   for (const Sample& s : r.samples) {
+    if (!record.time.empty()) interval = std::max(interval, s.time - record.time.back());
     record.time.push_back(s.time);
     record.force.push_back(s.hammer_force);
     record.response.push_back(s.hammer_displacement);
   }
+  const double first = 2 / length;
+  const double last = std::min(1.2 / scene.hammer->duration, 0.25 / interval);
   Series amplitude{"struck point", {}, {}, Stroke::solid};
   for (int i = 0; i <= kPoints && last > first; ++i) {
     const double f = first * std::pow(last / first, static_cast<double>(i) / kPoints);

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/results/resolution.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/report/markup.hpp"
@@ -18,12 +17,12 @@ namespace {
 
 /// Returns true if the wheel has rolled over the whole stretch up to x [m].
 bool reached(const RunResults& r, double x) {
-  return !r.samples.empty() && r.samples.back().wheel_x >= x;
+  return !r.samples.empty() && r.reached >= x;
 }
 
 /// Steady values count once the torque has ramped up and the smooth rail before the corrugation is behind.
 bool steady(const Model& model, const RunResults& r) {
-  return reached(r, r.steady_last) && r.steady_first >= settled_torque_x(model.scene);
+  return reached(r, r.steady_last) && torque_has_settled(model.scene, r);
 }
 
 bool counts(Reference::After after, const Model& model, const RunResults& r) {

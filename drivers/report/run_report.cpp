@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/energy_tables.hpp"
@@ -46,7 +45,7 @@ struct Run {
   /// Returns true if the wheel has come to the stretch that the scene is about.
   bool in_sight() const {
     const double first = corrugated() ? model.contact->corrugation().first() : scene().zone_start;
-    return rolled() && results.samples.back().wheel_x > first;
+    return rolled() && results.reached > first;
   }
   /// Returns true if the wheel has come to the corrugation.
   bool on_corrugation() const { return corrugated() && in_sight(); }
@@ -115,11 +114,11 @@ Chapter result_chapter(const Run& run) {
     chapter.blocks.emplace_back(rolling_figures(run));
     std::string text;
     if (run.corrugated() && !run.on_corrugation())
-      text = fmt::format("The run ends at x = {:.3f} m, before the corrugation. ", r.samples.back().wheel_x);
+      text = fmt::format("The wheel comes to x = {:.3f} m, before the corrugation. ", r.reached);
     text += fmt::format("Largest and smallest F_N: {}.{} Steady values: means over {}.",
                         stretch(r.evaluated_first, r.evaluated_last), slip_sentence(run),
                         stretch(r.steady_first, r.steady_last));
-    if (!run.model.torque.empty() && r.steady_first < settled_torque_x(run.scene()))
+    if (r.driven && !torque_has_settled(run.scene(), r))
       text += " The torque still rises or has just risen there: they are not steady yet.";
     chapter.blocks.emplace_back(Text{text});
   } else if (run.model.contact) {
@@ -222,8 +221,9 @@ Chapter preload_chapter(const Run& run) {
   if (run.model.index.slab >= 0) q.add("Slab deflection under the wheel", 1e6 * p.slab_deflection, "µm");
   if (run.model.wheelset) {
     q.add("Reaction of the held longitudinal motion", p.held_force_x, "N",
-          "of the wheel's mean; should be about zero");
-    q.add("Reaction of the held rotation", p.held_moment, "N m", "about the axle; should be about zero");
+          "of the wheel's mean, without traction; should be about zero");
+    q.add("Reaction of the held rotation", p.held_moment, "N m",
+          "about the axle, without traction; should be about zero");
   }
   q.add("Residual / load", p.residual, "-",
         fmt::format("{} iterations of Newton, {} of conjugate gradients", p.newton_iterations,

@@ -163,13 +163,14 @@ bool is_short(const SurfaceSpec& spec) {
 }
 
 /// Sentence where a shape of the rail, or a short one of the wheel, is not met on the way, or not as a whole.
-std::string unmet_warning(const Scene& scene, const std::string& name, const SurfaceSpec& spec) {
+std::string unmet_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
+  const Scene& scene = model.scene;
   const DepthBounds bounds = shape_of(scene, spec)->bounds();
   const Span place{spec.at + bounds.first, spec.at + bounds.last};
   if (!spec.on_wheel()) {
     return is_short(spec)
-               ? way_warning(scene, "surface." + name, place, place.last, "its forces are incomplete")
-               : way_warning(scene, "surface." + name, place, place.first, "it has no effect");
+               ? way_warning(model, "surface." + name, place, place.last, "its forces are incomplete")
+               : way_warning(model, "surface." + name, place, place.first, "it has no effect");
   }
   if (!is_short(spec) || !scene.motion || scene.motion->speed <= 0) return "";
   const Span way = run_span(scene);
@@ -183,7 +184,7 @@ std::string unmet_warning(const Scene& scene, const std::string& name, const Sur
 std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   const Scene& scene = model.scene;
   const std::vector<ZoneSpec> zones = scene.all_zones();
-  if (std::string unmet = unmet_warning(scene, name, spec); !unmet.empty()) return unmet;
+  if (std::string unmet = unmet_warning(model, name, spec); !unmet.empty()) return unmet;
   const bool is_detail = is_short(spec) || (spec.kind == "map" && !spec.on_wheel());
   if (is_detail && scene.motion) {
     const std::vector<Span> places = places_of(scene, spec, run_span(scene));

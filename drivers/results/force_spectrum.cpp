@@ -5,11 +5,19 @@
 
 namespace tread {
 
+namespace {
+
+bool lies_between(const Sample& sample, double first, double last) {
+  return sample.wheel_x >= first && sample.wheel_x <= last;
+}
+
+}  // namespace
+
 SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last) {
   SampleIntervals intervals;
   // The last sample is that of the last step.
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
-    if (samples[i - 1].wheel_x < first || samples[i].wheel_x > last) continue;
+    if (!lies_between(samples[i - 1], first, last) || !lies_between(samples[i], first, last)) continue;
     const double interval = samples[i].time - samples[i - 1].time;
     intervals.least = intervals.most == 0 ? interval : std::min(intervals.least, interval);
     intervals.most = std::max(intervals.most, interval);
@@ -26,7 +34,10 @@ ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, d
   double begin = 0;
   double end = 0;
   for (const Sample& s : samples) {
-    if (s.wheel_x < first || s.wheel_x > last) continue;
+    if (!lies_between(s, first, last)) {
+      if (force.empty()) continue;
+      break;  // brakes may turn the wheel back into the stretch
+    }
     if (force.empty()) begin = s.time;
     end = s.time;
     force.push_back(s.vertical_force);

@@ -26,8 +26,8 @@ struct SampleIntervals {
 /// Intervals of the samples with the wheel between two places [m], the last of all aside.
 SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last);
 
-/// Spectrum of F_N with the wheel between two places [m], in steps of dt [s]; without lines where fewer than
-/// 16 samples lie there, or where their interval changes.
+/// Spectrum of F_N with the wheel between two places [m] for the first time, in steps of dt [s]; without
+/// lines where fewer than 16 samples lie there, or where their interval changes.
 ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last, double dt);
 
 }  // namespace tread

@@ -1,6 +1,7 @@
 #pragma once
 // The files that grow during a run: histories.csv, run.h5, patch.h5.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -28,6 +29,9 @@ class GrowingFiles {
   /// Appends a sample and its measured values. Throws NumericalError if a value of the sample is not finite;
   /// such a value does not reach a file.
   void append(const Sample& sample, std::span<const double> measured);
+
+  /// Samples in the files of the histories.
+  std::int64_t rows_written() const { return histories_.rows_written(); }
 
   /// Bytes of patch.h5 with all samples so far; empty without contact.
   std::string patch_bytes();

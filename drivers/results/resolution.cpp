@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/geometry/point_scatter.hpp"
+#include "core/mesh/structured.hpp"
 #include "drivers/engine/body_point.hpp"
 #include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/sections.hpp"
 #include "drivers/results/depth_warnings.hpp"
 #include "drivers/results/way_warnings.hpp"
 #include "io/scene/resolving_size.hpp"
@@ -64,17 +66,48 @@ std::string edge_warning(const Model& model) {
       1e3 * lowest, 1e3 * first, 1e3 * last, 2e3 * half, way_out);
 }
 
-/// Sentence where the rail's head is of another stiffness or density than the beams that stand for the rail.
-std::string head_warning(const Scene& scene) {
-  constexpr double kAlike = 0.01;
-  if (scene.start() != "rolling") return "";
-  const Material& head = scene.head_material();
-  const Material& rail = scene.rail_material();
-  const auto alike = [](double a, double b) { return std::abs(a - b) <= kAlike * b; };
-  if (alike(head.youngs_modulus, rail.youngs_modulus) && alike(head.density, rail.density)) return "";
-  return "the start of a rolling wheel takes a rail of rail.material alone: a head of another Young's "
-         "modulus "
-         "or density makes F_N swing at first; let the wheel roll further before the corrugation";
+/// Mean section of a rail's body [m2].
+double section_of(const HexBody& body) {
+  double volume = 0, first = 1e30, last = -1e30;
+  for (std::size_t e = 0; e < body.mesh.elements.size(); ++e)
+    volume += hex_shape(body.mesh.corners(e)).volume;
+  for (const Vec3& at : body.mesh.nodes) {
+    first = std::min(first, at.x);
+    last = std::max(last, at.x);
+  }
+  return volume / (last - first);
+}
+
+/// Part of the rail that differs from the beams that stand for it, or "".
+std::string other_than_beam(const Model& model) {
+  constexpr double kAlike = 0.01, kAlikeSection = 0.03;
+  const Scene& scene = model.scene;
+  const auto alike = [](double a, double b, double share) { return std::abs(a - b) <= share * b; };
+  const auto is_beams = [&](const Material& material) {
+    const Material& beam = scene.rail_material();
+    return alike(material.youngs_modulus, beam.youngs_modulus, kAlike) &&
+           alike(material.density, beam.density, kAlike);
+  };
+  if (!is_beams(scene.head_material())) return "a head of another Young's modulus or density";
+  if (model.index.base_body < 0) return "";
+  const HexBody& body = model.mesh.bodies[static_cast<std::size_t>(model.index.base_body)];
+  if (!is_beams(body.materials.front()))
+    return fmt::format("body.{} of another Young's modulus or density", body.name);
+  const double section = section_of(body);
+  const double of_profile = area_moments(rail_sections(scene, model.sizes).base).area;
+  if (alike(section, of_profile, kAlikeSection)) return "";
+  return fmt::format("body.{} of {:.4g} cm2, where the profile has {:.4g} cm2 below its head,", body.name,
+                     1e4 * section, 1e4 * of_profile);
+}
+
+/// Sentence where the rail is of another stiffness, density or section than the beams that stand for it.
+std::string beam_warning(const Model& model) {
+  const std::string other = model.scene.start() == "rolling" ? other_than_beam(model) : "";
+  if (other.empty()) return "";
+  return fmt::format(
+      "the start of a rolling wheel takes a rail of rail.profile and rail.material alone: {} makes F_N "
+      "swing at first; let the wheel roll further before the corrugation",
+      other);
 }
 
 /// Sentence where a profile's points scatter. `table`: "wheel" or "rail".
@@ -140,11 +173,11 @@ void add_contact_warnings(const Model& model, std::vector<std::string>& warnings
   const RailSpec& rail = *model.scene.rail;
   warnings.push_back(profile_warning("wheel", wheel.profile_y, wheel.profile_z));
   warnings.push_back(profile_warning("rail", rail.profile_y, rail.profile_z));
-  warnings.push_back(head_warning(model.scene));
+  warnings.push_back(beam_warning(model));
   warnings.push_back(patch_warning(model));
   warnings.push_back(edge_warning(model));
   warnings.push_back(stress_depth_warning(model));
-  add_way_warnings(model.scene, warnings);
+  add_way_warnings(model, warnings);
   add_depth_warnings(model, warnings);
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/traction.hpp"
 #include "drivers/results/run_results.hpp"
 
 namespace tread {
@@ -29,13 +31,20 @@ double full_slip_share(const std::vector<Sample>& samples, const Counts& counts)
       .mean;
 }
 
-/// Fills forces, creepage and sliding over the evaluated stretch.
-void evaluate_stretch(const Model& model, double reached, RunResults& r) {
+/// Rearmost and foremost place of the wheel, which brakes may turn back [m].
+Span way_of(const std::vector<Sample>& samples) {
+  const auto [rear, fore] =
+      std::ranges::minmax_element(samples, {}, [](const Sample& s) { return s.wheel_x; });
+  return {rear->wheel_x, fore->wheel_x};
+}
+
+/// Fills forces, creepage and sliding over the evaluated stretch. A wheel that stands trembles.
+void evaluate_stretch(const Model& model, const Span& way, RunResults& r) {
   const Corrugation& corrugation = model.contact->corrugation();
-  const Span stretch = evaluated_stretch(model.scene, corrugation);
+  const Span stretch = stands(model.scene) ? way : evaluated_stretch(model.scene, corrugation);
   r.evaluated_first = stretch.first;
-  r.evaluated_last = std::min(reached, stretch.last);
-  if (r.evaluated_first > reached) r.evaluated_first = model.scene.start_x();
+  r.evaluated_last = std::min(way.last, stretch.last);
+  if (r.evaluated_first > way.last) r.evaluated_first = model.scene.start_x();
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   r.evaluated_samples = std::count_if(r.samples.begin(), r.samples.end(), evaluated);
   r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
@@ -52,7 +61,7 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
 constexpr double kSteady = 0.05;
 
 /// Mean F_L over mean F_N between two places of the wheel [m]; 0 without load.
-double traction_between(const std::vector<Sample>& samples, double first, double last) {
+double traction_between(std::span<const Sample> samples, double first, double last) {
   const auto mean = [&](auto value) { return statistics(samples, between(first, last), value).mean; };
   const double vertical = mean([](const Sample& s) { return s.vertical_force; });
   return vertical > 0 ? mean([](const Sample& s) { return s.longitudinal_force; }) / vertical : 0.0;
@@ -60,14 +69,15 @@ double traction_between(const std::vector<Sample>& samples, double first, double
 
 /// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
 /// corrugation.
-void evaluate_steady(const Model& model, double reached, RunResults& r) {
+void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
   const Scene& scene = model.scene;
   const Corrugation& corrugation = model.contact->corrugation();
   const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
   const double end = std::min(
-      reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
-  r.steady_last = end;
-  r.steady_first = std::max(scene.start_x(), end - span);
+      way.last, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
+  const Span stretch = stands(scene) ? way : Span{std::max(scene.start_x(), end - span), end};
+  r.steady_first = stretch.first;
+  r.steady_last = stretch.last;
   const auto mean = [&](auto value) {
     return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
   };
@@ -88,7 +98,7 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const double reach = model.contact->reach();
   if (r.surface_fields)
     r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, model.scene.start_x() + reach),
-                                std::min(r.evaluated_last, reached - reach));
+                                std::min(r.evaluated_last, way.last - reach));
 }
 
 /// Fills the errors of energy and momentum.
@@ -118,7 +128,7 @@ void evaluate_balance(RunResults& r) {
 }  // namespace
 
 bool traction_slides(const RunResults& r) {
-  return r.steady_slip_share > 0.5 && std::abs(r.traction_coefficient) > kSmallTraction;
+  return r.steady_slip_share > 0.5 && (r.driven || std::abs(r.traction_coefficient) > kSmallTraction);
 }
 
 bool traction_is_steady(const RunResults& r) {
@@ -126,12 +136,19 @@ bool traction_is_steady(const RunResults& r) {
   return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
 }
 
+bool torque_has_settled(const Scene& scene, const RunResults& r) {
+  if (stands(scene)) return !r.driven || scene.motion->ramp <= 0;
+  return r.steady_first >= settled_torque_x(scene);
+}
+
 void evaluate(const Model& model, RunResults& r) {
   if (r.samples.empty()) return;
+  r.driven = full_torque(model) != 0;
   if (model.contact) {
-    const double reached = r.samples.back().wheel_x;
-    evaluate_stretch(model, reached, r);
-    evaluate_steady(model, reached, r);
+    const Span way = way_of(r.samples);
+    r.reached = way.last;
+    evaluate_stretch(model, way, r);
+    evaluate_steady(model, way, r);
   }
   evaluate_balance(r);
 }
@@ -148,11 +165,14 @@ Statistics measured_statistics(const Model& model, const RunResults& r, std::siz
 std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
   const auto inside = between(first, last);
   const auto begin = std::find_if(samples.begin(), samples.end(), inside);
-  const auto end = std::find_if(samples.rbegin(), samples.rend(), inside);
   if (begin == samples.end()) return std::nullopt;
+  // Brakes may turn the wheel back, within the stretch or beyond.
+  const auto end = std::max_element(begin, std::find_if_not(begin, samples.end(), inside),
+                                    [](const Sample& a, const Sample& b) { return a.wheel_x < b.wheel_x; });
+  const std::span<const Sample> passage(&*begin, static_cast<std::size_t>(end - begin) + 1);
   const double way = end->wheel_x - begin->wheel_x;
-  const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
-  if (way <= 0 || std::abs(traction_between(samples, first, last)) < kSmallTraction) return std::nullopt;
+  const double force = statistics(passage, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
+  if (way <= 0 || std::abs(traction_between(passage, first, last)) < kSmallTraction) return std::nullopt;
   return (end->energy.frictional_work - begin->energy.frictional_work) / (way * force);
 }
 

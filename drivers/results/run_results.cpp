@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
@@ -43,9 +44,9 @@ const std::vector<HistoryColumn>& wheel_columns() {
        [](const Sample& s) { return s.max_shear; }},
       {{"max_penetration", "m", "largest penetration at an integration point"},
        [](const Sample& s) { return s.max_penetration; }},
-      {{"creepage_node", "-", "eq. (3) at the point of the tread that starts in the patch"},
+      {{"creepage_node", "-", "eq. (13) at the point of the tread that starts in the patch"},
        [](const Sample& s) { return s.creepage_node; }},
-      {{"creepage_mean", "-", "eq. (3), mean of 28 points around the tread"},
+      {{"creepage_mean", "-", "eq. (13), mean of 28 points around the tread"},
        [](const Sample& s) { return s.creepage_mean; }},
       {{"lateral_creepage", "-", "mean lateral speed of the wheelset over its forward speed"},
        [](const Sample& s) { return s.lateral_creepage; }},
@@ -112,6 +113,18 @@ std::vector<HistoryColumn> columns_of(const Model& model) {
   return columns;
 }
 
+/// Steps of `dt` [s] in a time [s] that a key states. InputError where they are more than a run can take.
+double steps_in(const char* key, double time, double dt) {
+  constexpr double kMost = 1e15;
+  const double steps = time / dt;
+  if (!(steps <= kMost))
+    throw InputError(
+        fmt::format("{} = {:g} s has {:.3g} steps of {:.3g} s, a run at most {:g}; state a larger "
+                    "motion.step_safety or a shorter {}",
+                    key, time, steps, dt, kMost, key));
+  return steps;
+}
+
 }  // namespace
 
 std::vector<Channel> history_channels(const Model& model) {
@@ -127,11 +140,12 @@ std::vector<double> history_row(const Model& model, const Sample& sample) {
 }
 
 std::int64_t step_count(const Scene& scene, double dt) {
-  return static_cast<std::int64_t>(std::ceil(scene.motion->duration / dt));
+  return static_cast<std::int64_t>(std::ceil(steps_in("motion.duration", scene.motion->duration, dt)));
 }
 
 std::int64_t sampling_interval(const Scene& scene, double dt) {
-  return std::max<std::int64_t>(1, std::llround(scene.output.history_interval / dt));
+  return std::max<std::int64_t>(
+      1, std::llround(steps_in("output.history_interval", scene.output.history_interval, dt)));
 }
 
 namespace {

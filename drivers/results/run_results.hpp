@@ -24,9 +24,10 @@ namespace tread {
 std::vector<Channel> history_channels(const Model& model);
 std::vector<double> history_row(const Model& model, const Sample& sample);
 
-/// Number of steps of a run with step `dt` [s].
+/// Number of steps of a run with step `dt` [s]. InputError above 1e15.
 std::int64_t step_count(const Scene& scene, double dt);
-std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
+/// Steps between samples. InputError above 1e15.
+std::int64_t sampling_interval(const Scene& scene, double dt);
 
 /// Origin of a run that begins with another run's state.
 struct ForkOrigin {
@@ -87,6 +88,8 @@ struct RunResults {
   double steady_slip_share = 0;  ///< the same, of the steady stretch [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
   double vertical_force_steady = 0;                        ///< mean there [N]
+  double reached = 0;                                      ///< foremost place of the wheel [m]
+  bool driven = false;                                     ///< by a torque of motion.traction
   double energy_error = 0;          ///< largest residual over what was dissipated or stored [-]
   double energy_error_of_work = 0;  ///< the same over the frictional work alone; 0 without any [-]
   double momentum_error = 0;        ///< [-]
@@ -104,16 +107,22 @@ void evaluate(const Model& model, RunResults& results);
 /// F_L / F_N below which a wheel rolls freely. [theory.md, eq. 13a]
 inline constexpr double kSmallTraction = 0.005;
 
-/// Creepage of the frictional work between two places of the wheel [m]: work per way over the mean of F_L.
+/// Creepage of the frictional work between two places of the wheel [m], as it first rolls ahead from one
+/// to the other: work per way over the mean of F_L.
 /// Nothing without way, or where F_L is too small against F_N. [theory.md, eq. 13a]
 std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last);
 
-/// Returns true if the whole patch slides in most samples of the steady stretch, under traction.
+/// Returns true if the whole patch slides in most samples of the steady stretch, of a driven wheel or under
+/// more than kSmallTraction.
 bool traction_slides(const RunResults& results);
 
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
 /// 0.005 where the traction is small, and the patch does not slide.
 bool traction_is_steady(const RunResults& results);
+
+/// Returns true if the torque of a scene with [motion] no longer rises, nor has just risen, over the steady
+/// stretch. That of a wheel that stands is the whole run.
+bool torque_has_settled(const Scene& scene, const RunResults& results);
 
 /// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values
 /// that were not measured do not count.

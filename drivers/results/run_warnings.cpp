@@ -38,6 +38,18 @@ std::string sag_warning(const Model& model, const Preload& preload) {
       model.scene.sleepers ? "fastenings.stiffness or sleepers.stiffness" : "fastenings.stiffness");
 }
 
+/// Change of F_N from span to span, over the load, at which a rolling start is as after a long way.
+constexpr double kRestless = 0.01;
+
+std::string run_in_warning(const Preload& preload) {
+  if (preload.run_in_change <= kRestless) return "";
+  return fmt::format(
+      "the way before a start = \"rolling\" was too short: F_N still changed by {:.2g} % of the load "
+      "from span to span, above {:.2g} % it swings at first; let the wheel roll further before what is "
+      "evaluated, or state stiffer fastenings or more fastenings.damping",
+      100 * preload.run_in_change, 100 * kRestless);
+}
+
 /// Residual over what was dissipated or stored above which results are doubted. Sound runs without friction,
 /// which dissipate little, have had 0.1.
 constexpr double kEnergyError = 0.5;
@@ -52,8 +64,7 @@ std::string balance_warning(const Model& model, const RunResults& r) {
 }
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
-  const bool driven = !model.torque.empty() && full_torque(model) != 0;
-  if (!driven || r.steady_samples == 0 || traction_is_steady(r)) return "";
+  if (full_torque(model) == 0 || r.steady_samples == 0 || traction_is_steady(r)) return "";
   if (traction_slides(r))
     return fmt::format(
         "the whole patch slides in {:.0f} % of the samples of the steady stretch (x = {:.3f} to {:.3f} m): "
@@ -138,6 +149,7 @@ std::string uncounted_loss(const Model& model) {
 std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
   std::vector<std::string> warnings = resolution_warnings(model);
   warnings.push_back(sag_warning(model, r.preload));
+  warnings.push_back(run_in_warning(r.preload));
   if (!r.samples.empty()) add_rolling_warnings(model, r, warnings);
   std::erase(warnings, "");
   return warnings;

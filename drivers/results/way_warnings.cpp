@@ -2,30 +2,34 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/travel.hpp"
 #include "drivers/engine/sections.hpp"
+#include "drivers/results/rail_ends.hpp"
 #include "io/scene/rail_reach.hpp"
 
 namespace tread {
 
 namespace {
 
-/// Sentence on the duration that lets the wheel roll to x [m].
-std::string way_to(const Scene& scene, double x) {
-  const std::optional<double> duration = duration_to(scene, x);
-  if (!duration) return "the brakes stop it before";
+/// Sentence on the duration with which the wheel surely rolls to x [m].
+std::string way_to(const Model& model, double x) {
+  const std::optional<double> duration = duration_to(model.scene, x);
+  if (!duration) return "the brakes may stop it before";
   const std::string text = fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *duration);
-  const bool on_rail = x + kRailEndMargin <= scene.rail->length - scene.rail->origin;
-  if (on_rail) return text;
-  return fmt::format("{}, with {}", text,
-                     keys_to_reach(scene, x).value_or("a longer rail than there may be"));
+  Scene longer = model.scene;
+  longer.motion->duration = *duration;
+  const std::string keys =
+      keys_for_way(model, travel_of(longer).last).value_or("a longer rail than there may be");
+  return keys.empty() ? text : fmt::format("{}, with {}", text, keys);
 }
 
 /// Sentence if a wheel does not roll over what the scene evaluates.
-std::string place_warning(const Scene& scene) {
+std::string place_warning(const Model& model) {
+  const Scene& scene = model.scene;
   std::string what = "the solution zone";
   Span place{scene.zone_start, scene.solution_zone().end()};
   double enough = place.first;
@@ -38,7 +42,7 @@ std::string place_warning(const Scene& scene) {
     lost = "values over it are incomplete";
   }
   if (place.last <= scene.start_x()) lost = "nothing is evaluated: its values in the summary are no results";
-  return way_warning(scene, what, place, enough, lost);
+  return way_warning(model, what, place, enough, lost);
 }
 
 /// Sentence where the wheel rolls more than a span beyond the outer fastenings, where others have room.
@@ -63,8 +67,9 @@ std::string fastening_warning(const Scene& scene) {
 
 }  // namespace
 
-std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
+std::string way_warning(const Model& model, const std::string& what, const Span& aim, double enough,
                         const char* lost) {
+  const Scene& scene = model.scene;
   if (!scene.motion) return "";
   if (aim.last <= scene.start_x())
     return fmt::format(
@@ -72,17 +77,20 @@ std::string way_warning(const Scene& scene, const std::string& what, const Span&
         "of the start",
         scene.start_x(), what, aim.first, aim.last, lost);
   if (scene.motion->speed <= 0) return "";
-  const double way = travel_of(scene).last;
-  if (way >= enough) return "";
-  return fmt::format(
-      "the wheel rolls to x = {:.4g} m and does not {} {}, x = {:.4g} to {:.4g} m, so that {}; {}", way,
-      way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost, way_to(scene, aim.last));
+  const Travel way = travel_of(scene);
+  if (way.sure >= enough) return "";
+  const bool may = way.sure < way.last;
+  return fmt::format("the wheel {} x = {:.4g} m and {} {} {}, x = {:.4g} to {:.4g} m, so that {}; {}",
+                     may ? "may roll only to" : "rolls to", way.sure, may ? "may not" : "does not",
+                     way.sure > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost,
+                     way_to(model, aim.last));
 }
 
-void add_way_warnings(const Scene& scene, std::vector<std::string>& warnings) {
-  warnings.push_back(place_warning(scene));
+void add_way_warnings(const Model& model, std::vector<std::string>& warnings) {
+  const Scene& scene = model.scene;
+  warnings.push_back(place_warning(model));
   for (const auto& [name, zone] : scene.zones)
-    warnings.push_back(way_warning(scene, fmt::format("zone.{}", name), {zone.start, zone.end()}, zone.start,
+    warnings.push_back(way_warning(model, fmt::format("zone.{}", name), {zone.start, zone.end()}, zone.start,
                                    "its elements have no effect on the rail"));
   warnings.push_back(fastening_warning(scene));
 }

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "drivers/engine/model.hpp"
 #include "drivers/engine/station_plan.hpp"
 
 namespace tread {
 
-/// Sentence if a rolling wheel starts ahead of `aim`, or does not come to x = `enough` [m] of it; else "".
+/// Sentence if a rolling wheel starts ahead of `aim`, or may not come to x = `enough` [m] of it; else "".
 /// `what` names the aim, `lost` states the consequence.
-std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
+std::string way_warning(const Model& model, const std::string& what, const Span& aim, double enough,
                         const char* lost);
 
 /// Appends a sentence for the solution zone or the corrugation, each [zone.NAME] and the fastenings; "" where
-/// the wheel's way is sound. Of a scene with [contact].
-void add_way_warnings(const Scene& scene, std::vector<std::string>& warnings);
+/// the wheel's way is sound. Of a model with contact.
+void add_way_warnings(const Model& model, std::vector<std::string>& warnings);
 
 }  // namespace tread

@@ -15,7 +15,7 @@ namespace tread {
 
 namespace {
 
-/// Since the entry was used [s].
+/// Since the entry was used; negative if the clock was ahead then [s].
 double age(const ContentCache::Entry& entry) {
   return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - entry.used).count();
 }
@@ -24,17 +24,23 @@ void show_text(const ContentCache& cache, const std::vector<ContentCache::Entry>
                std::int64_t bytes) {
   fmt::print("{}: {} preloads, {} of at most {}\n", cache.folder().string(), entries.size(),
              bytes_text(bytes), bytes_text(cache.limit()));
-  for (const ContentCache::Entry& entry : entries)
-    fmt::print("  {}  {:>8}  used {} ago\n", entry.path.filename().string(), bytes_text(entry.bytes),
-               duration_text(age(entry)));
+  for (const ContentCache::Entry& entry : entries) {
+    const double unused = age(entry);
+    fmt::print(
+        "  {}  {:>8}  {}\n", entry.path.filename().string(), bytes_text(entry.bytes),
+        unused < 0 ? "used when the clock was ahead" : fmt::format("used {} ago", duration_text(unused)));
+  }
 }
 
 void show_json(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
                std::int64_t bytes) {
   Json preloads = Json::array();
-  for (const ContentCache::Entry& entry : entries)
-    preloads.push_back(
-        {{"file", entry.path.filename().string()}, {"bytes", entry.bytes}, {"unused_s", age(entry)}});
+  for (const ContentCache::Entry& entry : entries) {
+    const double unused = age(entry);
+    preloads.push_back({{"file", entry.path.filename().string()},
+                        {"bytes", entry.bytes},
+                        {"unused_s", unused < 0 ? Json() : Json(unused)}});
+  }
   fmt::print("{}", json_text({{"folder", cache.folder().string()},
                               {"bytes", bytes},
                               {"limit_bytes", cache.limit()},

@@ -202,14 +202,14 @@ bool Followers::find_better_shares(double left) {
   constexpr int kLonger = 4;         // each interval than the last
   constexpr double kGain = 0.03;     // part of a step that is saved
   constexpr double kWorthwhile = 2;  // saved time over that of begin(): as measured, it may not come true
-  if (absent() || clock_.steps() < interval_) return false;
+  if (absent() || ranks_->dealt.empty() || clock_.steps() < interval_) return false;
   interval_ *= kLonger;
   say(*ranks_, Word::times);
   const std::vector<double> worked = clock_.take(*ranks_);
   const TimedShares now{ranks_->shares, *std::max_element(worked.begin(), worked.end())};
   const std::optional<TimedShares> before = std::exchange(before_, std::nullopt);
   const bool worse = before && before->seconds < now.seconds;
-  const TimedShares next = worse ? *before : evened_shares(now.shares, worked);
+  const TimedShares next = worse ? *before : evened_shares(ranks_->dealt, worked);
   const double saved = 1 - next.seconds / now.seconds;
   if (saved < kGain || saved * left < kWorthwhile * begin_seconds_) return false;
   if (!worse) before_ = now;

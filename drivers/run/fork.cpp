@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/sections.hpp"
+#include "drivers/results/rail_ends.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/scene/schema.hpp"
@@ -206,6 +207,12 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
   return fork;
 }
 
+double fork_room(const std::string& from) {
+  const Place place = parse_place(from);
+  const Found found = find_state(place, Progress(true));  // fork_from() tells of states that are of no use
+  return room_of(resolve_order(unpack_order(found.content), place.folder).scene);
+}
+
 /// Option of the newest earlier state that the run there keeps for good, in brackets; empty: none.
 std::string kept_state_text(const Fork& fork) {
   const ForkOrigin& origin = *fork.order.origin;
@@ -239,9 +246,10 @@ void require_same_past(const Fork& fork, const Model& model) {
 
 double Approach::time(const MotionSpec& motion, double x) const {
   const double acceleration = std::abs(wheel.acceleration(motion));  // reversals drive a braked wheel
+  const double speed = motion.speed + std::max(wheel.speed_of_slip(motion), 0.0);
   const double way = x - start - before;
   if (way <= 0 || motion.speed <= 0) return 0;
-  return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
+  return 2 * way / (speed + std::sqrt(speed * speed + 2 * acceleration * way));
 }
 
 Approach approach_of(const Scene& scene, double reach) {
@@ -256,7 +264,7 @@ std::optional<std::int64_t> fork_step(const Model& model, double dt) {
   // Before the preload the contact has no corrugation yet; its ends along the rail do not need the centre.
   const Corrugation corrugation = scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
-  const double time = approach_of(scene, model.contact->reach()).time(*scene.motion, start);
+  const double time = approach_of(scene, searched_reach(model)).time(*scene.motion, start);
   if (time <= 0)
     throw InputError(fmt::format(
         "[forks]: at the start the patch is less than 20 mm from x = {:.4f} m, where the corrugation or the "

@@ -27,6 +27,9 @@ struct Fork {
 /// where there is no such state, or where the scenes differ in what the state depends on.
 Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& progress);
 
+/// Depth of a corrugation that forks of the run in "DIR" or "DIR@TIME" have room for [m]. InputError.
+double fork_room(const std::string& from);
+
 /// InputError where the rail that the wheel has met so far is not that of the other run. `model`: of the run
 /// that begins, corrugated.
 void require_same_past(const Fork& fork, const Model& model);
@@ -37,7 +40,8 @@ struct Approach {
   double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
   DrivenWheel wheel;
 
-  /// By which the wheel is surely not nearer, traction included; not positive where it begins nearer. [s]
+  /// By which the wheel is surely not nearer, traction and creepage included; not positive where it begins
+  /// nearer. [s]
   double time(const MotionSpec& motion, double x) const;
 };
 

@@ -73,6 +73,7 @@ StateList fields_of(Preload& preload) {
   StateList list;
   preload.list_state(list);
   list.add("displacement", std::span<double>(preload.displacement));
+  list.add("rail_rise", std::span<double>(preload.rail_rise));
   if (preload.run_in) list.add_part("run_in", *preload.run_in);
   return list;
 }
@@ -80,6 +81,8 @@ StateList fields_of(Preload& preload) {
 Preload unpack_preload(const SealedContent& content, const Model& model) {
   Preload preload;
   preload.displacement.resize(static_cast<std::size_t>(3 * model.mesh.slots));
+  preload.rail_rise.resize(
+      sealed_entry<std::vector<double>>(content, fmt::format("{}/rail_rise", kGroup)).size());
   const auto make_room = [&]<class Record>(const char* name, std::vector<Record>& records) {
     const auto& values =
         sealed_entry<std::vector<double>>(content, fmt::format("{}/run_in/{}", kGroup, name));

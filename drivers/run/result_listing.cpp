@@ -176,8 +176,9 @@ std::string points_text(const JsonRecord& status, bool& complete) {
   return text;
 }
 
-/// State that the last process on the folder left in status.json.
-FolderState stated_in(const JsonRecord& status, bool has_summary) {
+/// State that the last process on the folder left in status.json. `ended`: a run has left all its results
+/// there, and was killed at the last if it has not said so.
+FolderState stated_in(const JsonRecord& status, bool ended) {
   FolderState state{text_in(status, "stage")};
   const auto time = number_in(status, "time_s");
   const auto duration = number_in(status, "duration_s");
@@ -187,23 +188,24 @@ FolderState stated_in(const JsonRecord& status, bool has_summary) {
   if (state.text == "failed") state.text += ": " + text_in(status, "text");
   if (number_in(status, "done"))
     state.text += ": " + points_text(status, state.complete);
-  else
-    state.complete = state.text == "done" && has_summary;
+  else if (ended)
+    state = {"done", true};
   return state;
 }
 
 FolderState state_of(const fs::path& folder) {
   const bool has_summary = fs::exists(folder / "summary.json");
+  const bool resumable = CheckpointFolder(folder / kCheckpointFolder).holds_run();
+  const bool worked_on = is_worked_on(folder);
   FolderState state{has_summary ? "done" : "no status.json", has_summary};
   if (fs::exists(folder / "status.json")) {
     try {
-      state = stated_in(read_json(folder / "status.json"), has_summary);
+      state = stated_in(read_json(folder / "status.json"), has_summary && !resumable && !worked_on);
     } catch (const InputError& error) {
       state.text = error.what();
     }
   }
-  const bool resumable = CheckpointFolder(folder / kCheckpointFolder).holds_run();
-  if (is_worked_on(folder)) return {state.text + "; a process works on it"};
+  if (worked_on) return {state.text + "; a process works on it"};
   if (resumable)
     return {fmt::format("not finished ({}); no process works on it, {} goes on", state.text,
                         resume_text(folder))};

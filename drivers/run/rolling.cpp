@@ -111,6 +111,7 @@ void Rolling::to_the_end() {
 
 void Rolling::step_to_the_end() {
   const int most = model_->scene.stop.steps;
+  check_penetration();
   while (simulation_->steps() < end_) {
     if (most > 0 && simulation_->steps() >= most)
       end<ResourceError>(
@@ -188,14 +189,16 @@ void Rolling::check_disk() {
         session_->folder.path().string(), bytes_text(bytes), bytes_text(static_cast<std::int64_t>(*disk))));
 }
 
+/// Of the last sample, which may be that of an earlier process.
 void Rolling::check_penetration() {
   const StopSpec& stop = model_->scene.stop;
-  const double penetration = simulation_->sample().max_penetration;
-  if (stop.penetration && penetration > *stop.penetration)
-    end<NumericalError>(
-        fmt::format("the wheel has penetrated the rail by {:.4g} um, more than stop.penetration "
-                    "= {:.4g} um",
-                    1e6 * penetration, 1e6 * *stop.penetration));
+  if (!stop.penetration || results_->samples.empty()) return;
+  const double penetration = results_->samples.back().max_penetration;
+  if (penetration > *stop.penetration)
+    end<NumericalError>(fmt::format(
+        "the wheel has penetrated the rail by {:.4g} um, more than stop.penetration = {:.4g} um, which ends "
+        "each `tread resume` too until its --set stop.penetration states more",
+        1e6 * penetration, 1e6 * *stop.penetration));
 }
 
 /// Writes a checkpoint, except of a motion that is not finite; the energies' watch soon ends such a motion.
@@ -289,7 +292,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   }
   close_quietly();
   text +=
-      fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
+      fmt::format("; {} samples are kept in {}", files_->rows_written(), session_->folder.path().string());
   text += "; " + how_to_go_on<E>();
   throw E(text);
 }

@@ -18,7 +18,7 @@ namespace tread {
 
 /// Number of the names and meanings in a checkpoint. It rises whenever one of them changes; checkpoints of
 /// another format are refused.
-inline constexpr std::int64_t kCheckpointFormat = 5;
+inline constexpr std::int64_t kCheckpointFormat = 6;
 
 /// Everything that a run was asked for.
 struct RunOrder {

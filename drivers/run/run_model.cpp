@@ -59,6 +59,12 @@ Model run_model(const ResolvedScene& made, const SealedContent* state, RunResult
                      state ? std::optional(deepest_line(made.scene, results.preload)) : std::nullopt);
 }
 
+void find_step(const Model& model, RunResults& results) {
+  if (!model.scene.motion) return;
+  results.limit = step_limit(model);
+  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
+}
+
 void require_device_memory(const Model& model) {
   const std::shared_ptr<Device> device = chosen_device();
   if (!device || !model.scene.motion) return;

@@ -22,6 +22,10 @@ void require_later_end(const Scene& made, const Scene& later, const SealedConten
 /// corrugation. [nullptr: no state yet]
 Model run_model(const ResolvedScene& made, const SealedContent* state, RunResults& results);
 
+/// Time step of a run of the model in `results`; nothing without [motion]. Throws InputError where the
+/// materials' damping leaves too little of it.
+void find_step(const Model& model, RunResults& results);
+
 /// ResourceError where the chosen device lacks memory for the steps of the model, by its estimate.
 void require_device_memory(const Model& model);
 

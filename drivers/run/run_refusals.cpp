@@ -10,6 +10,9 @@
 #include "core/error.hpp"
 #include "drivers/engine/traction.hpp"
 #include "drivers/results/disk_use.hpp"
+#include "drivers/results/growing_files.hpp"
+#include "drivers/results/rail_ends.hpp"
+#include "drivers/results/run_results.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/run_model.hpp"
@@ -29,25 +32,52 @@ void rehearse_fork(const RunSession& session, const Fork& fork) {
   adopt_later_values(model, session.resolved.scene);
   require_same_mesh(fork.content, model);
   require_same_past(fork, model);
-  require_disk(model, results, file_bytes(session.order.scene));
+  require_device_memory(model);
+  require_disk(model, results.dt, file_bytes(session.order.scene));
   fork_step(model, results.dt);
 }
 
-/// Finds the faults of a scene that its model and its disk use show, before an earlier run is thrown away.
+/// Finds the faults of a scene that its model shows.
+void rehearse_scene(const ResolvedScene& resolved) {
+  const Model model = scene_model(resolved.scene, resolved);
+  require_device_memory(model);
+  RunResults results;
+  find_step(model, results);
+  require_runnable(model, results.dt, file_bytes(resolved.source));
+}
+
+/// Finds the faults of a run that show before the preload, before an earlier run is thrown away.
 void rehearse(const RunSession& session, const Fork* fork) {
   preload_cache(session.options.cache);
   if (fork)
     rehearse_fork(session, *fork);
   else
-    require_runnable(scene_model(session.resolved.scene, session.resolved, std::nullopt),
-                     file_bytes(session.resolved.source));
+    rehearse_scene(session.resolved);
+}
+
+/// InputError where the corrugation would turn elements inside out. Nothing for a model that has it.
+void require_corrugation(const Model& model) {
+  const std::optional<CorrugationSpec>& spec = model.scene.corrugation;
+  if (!spec || spec->apply != "nodes" || !model.contact->corrugation().smooth()) return;
+  const Model corrugated(model.scene, spec->centre.value_or(0));
+}
+
+/// Name of results that the session's folder keeps without a run that ends or has begun, such as copies of
+/// files or states for forks; empty: none.
+std::string kept_results(const RunSession& session) {
+  if (!CheckpointFolder(session.folder / kForkFolder).states().empty())
+    return fmt::format("{}/", kForkFolder);
+  if (session.checkpoints.holds_run()) return "";
+  for (const char* name : {"run.h5", "histories.csv", kPatchFile})
+    if (std::filesystem::exists(session.folder / name)) return name;
+  return "";
 }
 
 }  // namespace
 
-void require_disk(const Model& model, const RunResults& results, std::int64_t files) {
+void require_disk(const Model& model, double dt, std::int64_t files) {
   const std::optional<double>& limit = model.scene.output.disk_limit;
-  const std::int64_t needed = disk_use(model, results.dt, files).total();
+  const std::int64_t needed = disk_use(model, dt, files).total();
   if (limit && static_cast<double>(needed) > *limit)
     throw InputError(
         fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
@@ -55,20 +85,20 @@ void require_disk(const Model& model, const RunResults& results, std::int64_t fi
                     bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
 }
 
-void require_runnable(const Model& model, std::int64_t files) {
+void require_runnable(const Model& model, double dt, std::int64_t files) {
   steady_traction(model);
-  const Scene& scene = model.scene;
-  if (!scene.motion || (!scene.output.disk_limit && !scene.forks)) return;
-  RunResults results;
-  results.dt = scene.motion->step_safety * step_limit(model).stable_step;
-  require_disk(model, results, files);
-  fork_step(model, results.dt);
+  require_way_on_rail(model);
+  require_corrugation(model);
+  if (!model.scene.motion) return;
+  require_disk(model, dt, files);  // which asks for the places of probes, too
+  fork_step(model, dt);
 }
 
 void refuse_to_overwrite(const RunSession& session, const Fork* fork) {
   const bool finished = std::filesystem::exists(session.folder / "summary.json");
+  const std::string kept = kept_results(session);
   if (session.options.overwrite) {
-    if (finished || !session.checkpoints.states().empty()) rehearse(session, fork);
+    if (finished || !kept.empty() || !session.checkpoints.states().empty()) rehearse(session, fork);
     return;
   }
   const std::string folder = session.folder.path().string();
@@ -80,6 +110,11 @@ void refuse_to_overwrite(const RunSession& session, const Fork* fork) {
   if (finished)
     throw InputError(fmt::format(
         "{} holds a finished run: --overwrite throws it away, or choose another folder with -o", folder));
+  if (!kept.empty())
+    throw InputError(
+        fmt::format("{} holds results of a run ({}): --overwrite throws them away, or choose another folder "
+                    "with -o",
+                    folder, kept));
 }
 
 void refuse_other_keys(const std::vector<std::string>& overrides) {

@@ -102,12 +102,13 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
   results.seconds_preload = found.seconds;
 }
 
+/// `results`: with the step of the smooth rail.
 void choose_step(const RunSession& session, const Model& model, RunResults& results) {
-  results.limit = step_limit(model);
-  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
+  const bool moved_nodes = model.scene.corrugation && model.scene.corrugation->apply == "nodes";
+  if (moved_nodes) find_step(model, results);
   session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
                                     step_count(model.scene, results.dt), results.limit.reason));
-  require_disk(model, results, file_bytes(session.order.scene));
+  require_disk(model, results.dt, file_bytes(session.order.scene));
 }
 
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
@@ -124,7 +125,7 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
 /// The other run's state becomes the first checkpoint of this one.
 void begin_fork(const RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
   require_same_past(fork, model);
-  require_disk(model, results, file_bytes(session.order.scene));
+  require_disk(model, results.dt, file_bytes(session.order.scene));
   results.seconds_mesh = session.progress.seconds();
   const ForkOrigin& origin = *fork.order.origin;
   if (model.scene.output.frames > 0)
@@ -171,6 +172,8 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
   } else {
+    find_step(model, results);
+    require_runnable(model, results.dt, file_bytes(session.order.scene));
     find_statics(session, made, model, results);
     if (model.contact && !scene.motion) leave_static_patch(model, results, session.folder.path());
     model.apply_corrugation(deepest_line(scene, results.preload));
@@ -274,12 +277,18 @@ void read_order(RunSession& session, const std::optional<CheckpointFolder::Found
   require_later_end(made.scene, session.resolved.scene, found ? &found->content : nullptr);
 }
 
-/// "corrugation-d-20140512-093000", of a scene's file and the local time.
-std::filesystem::path dated_folder(const std::filesystem::path& scene) {
+/// A new folder "corrugation-d-20140512-093000", of a scene's file and the local time; "-2" and so on behind
+/// that where it is another run's. One that cannot be made is left to RunSession, which says why.
+std::filesystem::path make_dated_folder(const std::filesystem::path& scene) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   ::localtime_r(&now, &local);
-  return fmt::format("{}-{:%Y%m%d-%H%M%S}", scene.stem().string(), local);
+  const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}", scene.stem().string(), local);
+  std::filesystem::path folder = name;
+  std::error_code error;
+  for (int i = 2; !std::filesystem::create_directory(folder, error) && !error; ++i)
+    folder = fmt::format("{}-{}", name, i);
+  return folder;
 }
 
 /// Threads and device of a run.
@@ -295,13 +304,14 @@ void take_machine(const RunOptions& options) {
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
-  if (options.output.empty()) options.output = dated_folder(resolved.source.name);
-  const bool holds_run = require_folder_of(options.output, "run");
+  const bool dated = options.output.empty();
+  const bool holds_run = !dated && require_folder_of(options.output, "run");
   take_machine(options);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
   std::optional<Fork> fork;
   if (!options.from.empty()) fork = read_other(options, wanted);
+  if (dated) options.output = make_dated_folder(resolved.source.name);
   RunSession session(options);
   session.order = fork ? fork->order : wanted;
   session.resolved = fork ? resolve_with_later(session.order) : resolved;
@@ -327,8 +337,10 @@ void resume_run(const RunOptions& options) {
           fmt::format("--set {}: {} holds a finished run, which cannot go on; start another one with these "
                       "values, from a state that [forks] has kept if it is to have the same past",
                       options.overrides.front(), options.output.string()));
-    session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
-                                     (session.folder / "report.html").string()));
+    const std::string text = fmt::format("{} holds a finished run: see {}", options.output.string(),
+                                         (session.folder / "report.html").string());
+    session.progress.say(text);
+    session.show("done", text);  // its process may have been killed before it said so
     if (options.json) fmt::print("{}", read_text_file(session.folder / "summary.json", 1 << 24));
     return;
   }

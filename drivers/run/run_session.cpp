@@ -20,10 +20,11 @@ std::filesystem::path made(const std::filesystem::path& directory) {
   return directory;
 }
 
-/// Sentence on a signal before the first step. With --overwrite, states in the folder are of an earlier run.
+/// Sentence on a signal before the first step. With --overwrite, states in the folder are of an earlier run,
+/// with which `tread resume` would go on until it is thrown away.
 std::string early_word(const RunOptions& given, const CheckpointFolder& checkpoints) {
   const bool goes_on = !given.overwrite && !checkpoints.states().empty();
-  const bool as_typed = !given.from.empty() || !given.overrides.empty();
+  const bool as_typed = given.overwrite || !given.from.empty() || !given.overrides.empty();
   return fmt::format("tread: stopped before the first step; {} {}",
                      as_typed ? "the same command" : resume_text(given.output),
                      goes_on ? "goes on from the last checkpoint" : "starts again");

@@ -5,34 +5,46 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "drivers/engine/static_system.hpp"
 
 namespace tread {
 
-RailAxis::RailAxis(const Model& model)
-    : model_(&model), x_(model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())].stations) {}
+RailAxis::RailAxis(const Model& model) : model_(&model) {
+  for (const int b : model.index.rail()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    const double* first = model.mass.data() + block.base;
+    const double mass = std::accumulate(first, first + block.slots(), 0.0);
+    parts_.push_back({&block, mass / (block.stations.back() - block.stations.front())});
+  }
+}
 
-double RailAxis::deflection(int station, ConstNodeField u) const {
+/// Mean of a block's nodes at a station.
+double RailAxis::deflection(const Part& part, int station, ConstNodeField u) const {
   double sum = 0;
   double mass = 0;
-  for (const int b : model_->index.rail()) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    for (int node = 0; node < block.section.nodes(); ++node) {
-      const std::int64_t slot = block.base + block.slot(node, station);
-      const double m = model_->mass[static_cast<std::size_t>(slot)];
-      sum -= m * u[dof(slot, 2)];
-      mass += m;
-    }
+  for (int node = 0; node < part.block->section.nodes(); ++node) {
+    const std::int64_t slot = part.block->base + part.block->slot(node, station);
+    const double m = model_->mass[static_cast<std::size_t>(slot)];
+    sum -= m * u[dof(slot, 2)];
+    mass += m;
   }
   return sum / mass;
 }
 
-double RailAxis::deflection_at(double x, ConstNodeField u) const {
-  const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
-  const auto i = static_cast<int>(above - x_.begin()) - 1;
-  const double share = (x - *(above - 1)) / (*above - *(above - 1));
-  return (1 - share) * deflection(i, u) + share * deflection(i + 1, u);
+double RailAxis::deflection(double x, ConstNodeField u) const {
+  double sum = 0;
+  double mass = 0;
+  for (const Part& part : parts_) {
+    const std::vector<double>& places = part.block->stations;
+    const auto above = std::upper_bound(places.begin() + 1, places.end() - 1, x);
+    const auto i = static_cast<int>(above - places.begin()) - 1;
+    const double share = (x - *(above - 1)) / (*above - *(above - 1));
+    sum += part.mass * ((1 - share) * deflection(part, i, u) + share * deflection(part, i + 1, u));
+    mass += part.mass;
+  }
+  return sum / mass;
 }
 
 EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress) {

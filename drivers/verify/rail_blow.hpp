@@ -11,20 +11,26 @@
 
 namespace tread {
 
-/// Vertical motion of a rail's cross-sections, by station.
+/// Vertical motion of a rail's cross-sections.
 class RailAxis {
  public:
   explicit RailAxis(const Model& model);
 
-  const std::vector<double>& stations() const { return x_; }
-  /// Mean downward displacement of a cross-section, weighted by mass [m].
-  double deflection(int station, ConstNodeField u) const;
-  /// Mean downward displacement at x, linear between stations [m].
-  double deflection_at(double x, ConstNodeField u) const;
+  /// Stations of the foot [m].
+  const std::vector<double>& stations() const { return parts_.back().block->stations; }
+  /// Mean downward displacement of the cross-section at x, weighted by mass; of each block linear between its
+  /// own stations [m].
+  double deflection(double x, ConstNodeField u) const;
 
  private:
+  struct Part {
+    const SweptBlock* block;
+    double mass;  ///< [kg/m]
+  };
+  double deflection(const Part& part, int station, ConstNodeField u) const;
+
   const Model* model_;
-  std::vector<double> x_;  ///< [m]
+  std::vector<Part> parts_;  ///< the foot's is the last
 };
 
 /// Function called with time and displacements at every sample, the start included.

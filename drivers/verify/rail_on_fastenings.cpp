@@ -84,7 +84,7 @@ Strike strike(const Scene& scene, const ProgressText& progress) {
       model, kInterval,
       [&](double time, ConstNodeField u) {
         const double at_head = -model.hammer->value(u, 2);
-        const double of_section = axis.deflection_at(x, u);
+        const double of_section = axis.deflection(x, u);
         if (out.head.time.empty()) {
           head = at_head;
           section = of_section;
@@ -188,8 +188,8 @@ duration = "1 ms"
   const double winkler = 1 / (1 / scene.fastenings->stiffness + bed) / scene.fastenings->spacing;
   const double line = force * std::pow(winkler / (4 * rail.bending_stiffness), 0.25) / (2 * winkler);
   result.findings.push_back({"deflection of the cross-section under the wheel", "mm",
-                             1e3 * RailAxis(model).deflection_at(0, preload.displacement.data()),
-                             1e3 * theory, 0.02});
+                             1e3 * RailAxis(model).deflection(0, preload.displacement.data()), 1e3 * theory,
+                             0.02});
   result.findings.push_back(
       {"the same of the foot", "mm", 1e3 * preload.rail_deflection, 1e3 * theory, 0.02});
   result.findings.push_back(

@@ -71,7 +71,7 @@ std::vector<Mode> rail_modes(const Scene& scene, const BeamProperties& beam, int
     if (time < scene.hammer->duration) return;
     std::vector<double> sums(amplitudes.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double w = axis.deflection(static_cast<int>(i), u);
+      const double w = axis.deflection(x[i], u);
       const double share = 0.5 * (x[std::min(i + 1, x.size() - 1)] - x[i == 0 ? 0 : i - 1]);
       for (std::size_t n = 0; n < sums.size(); ++n)
         sums[n] +=

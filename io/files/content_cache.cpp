@@ -84,9 +84,9 @@ void ContentCache::store(const std::string& key, SealedContent content) const {
   content[kKey] = key;
   const FileLock lock = take(folder_);
   remove_entry_parts(folder_);
-  replace_file(path_of(folder_, key),
-               [&](const fs::path& part) { write_sealed(part, kCachedKind, kVersion, content); });
-  trim();
+  const fs::path path = path_of(folder_, key);
+  replace_file(path, [&](const fs::path& part) { write_sealed(part, kCachedKind, kVersion, content); });
+  trim(path);
 }
 
 std::optional<FileLock> ContentCache::claim(const std::string& key) const {
@@ -103,14 +103,21 @@ std::vector<ContentCache::Entry> ContentCache::entries() const {
     const fs::file_time_type used = error ? fs::file_time_type{} : file.last_write_time(error);
     if (!error) list.push_back({file.path(), bytes, used});  // error: another process removed it
   }
-  std::sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.used > b.used; });
+  // Times to come are those of a clock that was ahead.
+  const fs::file_time_type now = fs::file_time_type::clock::now();
+  const auto known = [now](const Entry& entry) {
+    return entry.used > now ? fs::file_time_type::min() : entry.used;
+  };
+  std::sort(list.begin(), list.end(), [&](const Entry& a, const Entry& b) { return known(a) > known(b); });
   return list;
 }
 
-void ContentCache::trim() const {
+void ContentCache::trim(const fs::path& stored) const {
+  std::vector<Entry> list = entries();
+  std::stable_partition(list.begin(), list.end(), [&](const Entry& entry) { return entry.path == stored; });
   std::int64_t sum = 0;
   std::error_code ignored;
-  for (const Entry& entry : entries()) {
+  for (const Entry& entry : list) {
     sum += entry.bytes;
     if (sum > limit_) fs::remove(entry.path, ignored);
   }

@@ -23,8 +23,8 @@ class ContentCache {
   /// key is unusable, the reason goes to `refused`.
   std::optional<SealedContent> find(const std::string& key, std::string& refused) const;
 
-  /// Stores the content, then removes the least recently used files until the limit is kept. Throws
-  /// ResourceError; the older files then stay.
+  /// Stores the content, then removes the least recently used files until the limit is kept, that of the key
+  /// last. Throws ResourceError; the older files then stay.
   void store(const std::string& key, SealedContent content) const;
 
   /// Lock of the process that computes the content of the key; nullopt while another process holds it. It
@@ -34,10 +34,10 @@ class ContentCache {
 
   struct Entry {
     std::filesystem::path path;
-    std::int64_t bytes;  ///< size [B]
-    std::filesystem::file_time_type used;
+    std::int64_t bytes;                    ///< size [B]
+    std::filesystem::file_time_type used;  ///< to come: the clock was ahead
   };
-  /// All files, the last used first; empty if there is no folder.
+  /// All files, the last used first, those of times to come at the end; empty if there is no folder.
   std::vector<Entry> entries() const;
 
   /// Removes all entries. Throws ResourceError.
@@ -47,7 +47,8 @@ class ContentCache {
   std::int64_t limit() const { return limit_; }
 
  private:
-  void trim() const;
+  /// Removes files beyond the limit, `stored` last.
+  void trim(const std::filesystem::path& stored) const;
 
   std::filesystem::path folder_;
   std::int64_t limit_;

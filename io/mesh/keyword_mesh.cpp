@@ -287,8 +287,9 @@ class KeywordMesh {
 
   void segment_card(std::string_view line) {
     std::array<std::int64_t, 10> numbers;
-    const std::span<const int> four(kTens.data(), 4);
-    if (!behind_head(line) || !numbers_of(MeshFields::of_widths(line, four), "sets", numbers)) return;
+    MeshFields fields = MeshFields::of_widths(line, kTens);
+    fields.keep(4);  // attributes follow
+    if (!behind_head(line) || !numbers_of(fields, "sets", numbers)) return;
     for (std::size_t i = 0; i < 4; ++i)
       if (numbers[i] != 0) set_.numbers.push_back({numbers[i], numbers[i]});
   }

@@ -62,6 +62,8 @@ class MeshFields {
   std::size_t size() const { return size_; }
   /// The field without blanks around it; empty beyond the last.
   std::string_view operator[](std::size_t i) const { return i < size_ ? fields_[i] : std::string_view(); }
+  /// Leaves out the fields behind the first `count`.
+  void keep(std::size_t count) { size_ = count < size_ ? count : size_; }
   /// More than kMost fields.
   bool overfull() const { return overfull_; }
 

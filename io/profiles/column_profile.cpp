@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <map>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "io/text/text.hpp"
@@ -61,6 +64,28 @@ void require_order(const std::vector<std::string>& words) {
   if (names.size() > 1) require_column_order(names, kProfileNames);
 }
 
+/// Returns true for numbers that no profile can have, too: "nan", "1e999".
+bool is_any_number(std::string_view cell) {
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error != std::errc::invalid_argument && end == cell.data() + cell.size();
+}
+
+/// Returns true for a line that begins as a row: a number, then another number or an empty cell between
+/// separators. Separators at the end say nothing: "45;" is a count of rows.
+bool begins_as_row(std::string_view line) {
+  constexpr std::string_view kSeparators = " \t,;";
+  line = line.substr(0, line.find_last_not_of(kSeparators) + 1);
+  const auto cell = [&] { return line.substr(0, line.find_first_of(kSeparators)); };
+  const std::string_view first = cell();
+  if (!is_any_number(first)) return false;
+  const auto at_separator = [&] { return line.starts_with(',') || line.starts_with(';'); };
+  line = trimmed(line.substr(first.size()));
+  if (at_separator()) line = trimmed(line.substr(1));
+  return at_separator() || is_any_number(cell());
+}
+
 }  // namespace
 
 FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& faults) {
@@ -76,6 +101,12 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
     const std::string line(trimmed(whole));
     if (line.empty() || line.starts_with('#') || line.starts_with('!')) continue;
     const std::vector<double> row = leading_numbers(line, 6);
+    if (columns == 0 && row.size() < 2 && begins_as_row(line)) {
+      faults.push_back(
+          {number, fmt::format("\"{}\": expected a row of numbers, y and z; a comment begins with #",
+                               line.substr(0, 60))});
+      continue;
+    }
     if (columns == 0 && row.size() < 2) {
       const bool count = line.find_first_not_of("0123456789") == std::string::npos;
       announced = count && !row.empty() && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;

@@ -31,9 +31,8 @@ void turn(std::vector<double>& values) {
 /// Throws InputError, which names the points as `points` and asks `doubt`, unless their number and width are
 /// those of a profile.
 void check_size(const UnderstoodProfile& p, bool wheel, const std::string& points, const std::string& doubt) {
-  constexpr std::size_t kFewest = 10;
-  if (p.y.size() < kFewest)
-    throw InputError(fmt::format("{} points: a profile needs at least {}", p.y.size(), kFewest));
+  if (p.y.size() < kFewestProfilePoints)
+    throw InputError(fmt::format("{} points: a profile needs at least {}", p.y.size(), kFewestProfilePoints));
   const auto [low, high] = range_of(p.y);
   const Range allowed = wheel ? Range{90 * mm, 200 * mm} : Range{40 * mm, 200 * mm};
   if (!(high - low >= allowed.low && high - low <= allowed.high))

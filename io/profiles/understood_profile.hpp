@@ -1,12 +1,16 @@
 #pragma once
 // A profile's points brought into the program's axes, cleaned and smoothed.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "io/profiles/profile_points.hpp"
 
 namespace tread {
+
+/// Points below which a shape tells no axes, and gives radii only roughly.
+inline constexpr std::size_t kFewestProfilePoints = 10;
 
 /// Statements of the user beside the file.
 struct ProfileWish {

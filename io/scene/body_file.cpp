@@ -23,7 +23,7 @@ std::string in_thousands(std::size_t count) {
 }  // namespace
 
 std::string read_mesh_text(const std::filesystem::path& path) {
-  return read_bytes(path, kLargestMeshFile);
+  return without_mark(read_bytes(path, kLargestMeshFile));
 }
 
 ImportedMesh mesh_in(const std::string& text, const std::filesystem::path& name, const MeshWish& wish,

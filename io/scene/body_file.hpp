@@ -11,7 +11,7 @@
 
 namespace tread {
 
-/// All bytes of a mesh file. Throws InputError.
+/// All bytes of a mesh file, without a byte-order mark. Throws InputError.
 std::string read_mesh_text(const std::filesystem::path& path);
 
 /// The mesh in a file's text. Every fault is added to `problems`; without any the mesh is of use.

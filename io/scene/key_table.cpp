@@ -205,7 +205,8 @@ constexpr std::array<NamedTables, 6> kNamedTables = {
     entries_of<&Scene::probes>(
         kProbeTables, add_probe,
         "A point of a body whose motion or stress the histories hold, in columns that begin with the "
-        "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.")};
+        "probe's name.\nAccelerations are means over the interval between two samples.\nFrequencies above "
+        "half the sample rate are weakened, not removed; shorten `output.history_interval`.")};
 
 /// The kind of the table; null for tables that no scene names.
 const NamedTables* kind_of(std::string_view table) {

@@ -33,6 +33,9 @@ UnderstoodProfile documented(TwoColumns columns, const ProfileWish& wish) {
   profile.units = "stated or mm";
   profile.points = static_cast<int>(columns.first.size());
   profile.mirrored = wish.mirrored;
+  if (columns.first.size() < kFewestProfilePoints)
+    profile.notes.push_back(
+        fmt::format("fewer than {} points give radii only roughly", kFewestProfilePoints));
   profile.y = std::move(columns.first);
   profile.z = std::move(columns.second);
   finish(profile, wish);

@@ -77,11 +77,8 @@ class SceneBuilder {
     const Place place{"--set", 0, 0};
     const auto equals = text.find('=');
     const std::string path(trimmed(std::string_view(text).substr(0, equals)));
-    if (equals == std::string::npos || path.empty()) {
-      report(place, "",
-             fmt::format("\"{}\" is not of the form key=value, such as motion.speed=\"250 km/h\"", text));
-      return;
-    }
+    if (const std::string fault = override_fault(text); !fault.empty())
+      return report(place, equals == std::string::npos ? "" : one_line(path), fault);
     const Origin origin{Level::command_line, place, "--set"};
     set_plain(path, std::string(trimmed(std::string_view(text).substr(equals + 1))), origin);
   }

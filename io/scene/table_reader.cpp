@@ -56,6 +56,15 @@ Unit pure_unit(const std::string& text) {
   return {};
 }
 
+bool is_unit(const std::string& text) {
+  try {
+    parse_unit(text);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 bool same_unit(const Unit& a, const Unit& b) {
   return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator &&
          a.dimension == b.dimension;
@@ -84,15 +93,19 @@ class TableParser {
 
   void read_line(const std::string& line) {
     ++line_;
-    const std::vector<std::string> units = bracketed(line);
-    if (rows.empty() && units.size() == columns_) {
+    std::vector<std::string> units = bracketed(line);
+    const bool enough = units.size() >= columns_;
+    if (enough) units.resize(columns_);
+    if (rows.empty() && enough && is_header(units, line)) {
       read_header(units, line);
       return;
     }
+    if (rows.empty() && enough)
+      ignored_ = fmt::format("; {} on line {} are no units", listed_units(units), line_);
     const std::vector<std::string> row = table_cells(line);
     if (!row.empty())
       add_row(row, line);
-    else if (header_line_ > 0 && units.size() == columns_ && units != texts_)
+    else if (header_line_ > 0 && enough && units != texts_)
       refuse_late_header(units);
   }
 
@@ -130,9 +143,41 @@ class TableParser {
     return {0, std::numbers::pi, 180, {}};
   }
 
+  /// Names before the units of the columns.
+  std::vector<std::string> names_of(const std::string& line) const {
+    std::vector<std::string> names = names_before_units(line);
+    names.resize(columns_);
+    return names;
+  }
+
+  /// Returns true for "# way [inch]  wear [inch]": a word before each column's bracket, no digits, no more.
+  bool is_words_and_units(std::string_view line) const {
+    line.remove_prefix(std::min(line.find_first_not_of("# \t"), line.size()));
+    for (std::size_t i = 0; i < columns_; ++i) {
+      const std::size_t open = line.find('[');
+      const std::size_t close = line.find(']', open);
+      if (table_cells(std::string(line.substr(0, open))).size() != 1) return false;
+      if (line.substr(0, close).find_first_of("0123456789", open) != line.npos) return false;
+      line.remove_prefix(close + 1);
+    }
+    return trimmed(line).empty();
+  }
+
+  /// Returns true for a line with a unit, or a column's name, among its brackets; others are comments. Where
+  /// a file may state no units, unknown ones must not pass for a comment.
+  bool is_header(const std::vector<std::string>& texts, const std::string& line) const {
+    const auto is_column = [&](const std::string& name) {
+      return std::ranges::any_of(rules_.names, [&](const ColumnNames& column) {
+        return std::ranges::find(column, lower_case(name)) != column.end();
+      });
+    };
+    return std::ranges::any_of(texts, is_unit) || std::ranges::any_of(names_of(line), is_column) ||
+           (!rules_.needs_units && header_line_ == 0 && is_words_and_units(line));
+  }
+
   void read_header(const std::vector<std::string>& texts, const std::string& line) {
     try {
-      require_column_order(names_before_units(line), rules_.names);
+      require_column_order(names_of(line), rules_.names);
       if (rules_.downwards) refuse_heights(line);
       state_units(texts);
     } catch (const InputError&) {
@@ -143,8 +188,8 @@ class TableParser {
   }
 
   /// Throws InputError where the last column's name is one of heights.
-  static void refuse_heights(const std::string& line) {
-    const std::string name = names_before_units(line).back();
+  void refuse_heights(const std::string& line) const {
+    const std::string name = names_of(line).back();
     const bool height = lower_case(name) == "z" || lower_case(name) == "height";
     if (!height || lower_case(line).find("depth") != std::string::npos) return;
     throw InputError(fmt::format(
@@ -212,9 +257,9 @@ class TableParser {
     const bool missing = !units_ && rules_.needs_units;
     if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
     if (missing)
-      throw InputError(fmt::format("the units are missing: put a line such as \"{}\" before the numbers{}",
-                                   example(),
-                                   rules_.units_option.empty() ? "" : ", or state " + rules_.units_option));
+      throw InputError(
+          fmt::format("the units are missing: put a line such as \"{}\" before the numbers{}{}", example(),
+                      rules_.units_option.empty() ? "" : ", or state " + rules_.units_option, ignored_));
     std::vector<double> values;
     for (std::size_t i = 0; i < columns_; ++i) values.push_back(parse_number(row[i], (*units_)[i]));
     if (rules_.increasing && !rows.empty() && values[0] <= rows.back()[0])
@@ -230,9 +275,10 @@ class TableParser {
   std::size_t columns_;
   std::optional<std::vector<Unit>> units_;
   std::vector<std::string> texts_;  ///< the units as the header states them
-  int line_ = 0;                    ///< from 1
-  int header_line_ = 0;             ///< 0: no header yet
-  std::size_t deepest_row_ = 0;     ///< with the largest magnitude in the last column
+  std::string ignored_;          ///< clause on the last line before the numbers whose brackets hold no units
+  int line_ = 0;                 ///< from 1
+  int header_line_ = 0;          ///< 0: no header yet
+  std::size_t deepest_row_ = 0;  ///< with the largest magnitude in the last column
   int deepest_line_ = 0;
 };
 
@@ -296,10 +342,7 @@ bool read_table_lines(const std::string& content, const std::filesystem::path& p
 }
 
 std::string read_table_text(const std::filesystem::path& path) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // with which spreadsheets begin a file in UTF-8
-  std::string text = read_text_file(path, kLargestTable);
-  if (text.starts_with(kMark)) text.erase(0, kMark.size());
-  return text;
+  return without_mark(read_text_file(path, kLargestTable));
 }
 
 TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,

@@ -70,7 +70,7 @@ bool read_table_lines(const std::string& content, const std::filesystem::path& p
 std::string read_table_text(const std::filesystem::path& path);
 
 /// Reads two numbers a line, separated by blanks, commas or semicolons; '#' starts a comment. A line before
-/// the numbers that holds two bracketed units declares them; without it, where the rules allow, both are
+/// the numbers whose first two brackets hold units declares them; without it, where the rules allow, both are
 /// millimetres. Every bad line is added to `problems` with its number; `path` is the file's name in them.
 TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
                              const TableRules& rules, std::vector<Problem>& problems);

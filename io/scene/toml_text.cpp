@@ -159,6 +159,18 @@ std::unique_ptr<toml::node> parse_plain_value(const std::string& text, bool take
   return std::make_unique<toml::value<std::string>>(text);
 }
 
+std::string override_fault(const std::string& text) {
+  for (std::size_t at = 0; at < text.size(); at += utf8_bytes(text, at))
+    if (utf8_bytes(text, at) == 0)
+      return fmt::format(
+          "\"{}\" has bytes that are not UTF-8, here \"?\"; write it in UTF-8, and rename a file whose name "
+          "is not",
+          one_line(text));
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos && !trimmed(std::string_view(text).substr(0, equals)).empty()) return "";
+  return fmt::format("\"{}\" is not of the form key=value, such as motion.speed=\"250 km/h\"", text);
+}
+
 std::unique_ptr<toml::node> clone(const toml::node& node) {
   return node.visit([](const auto& typed) -> std::unique_ptr<toml::node> {
     return std::make_unique<std::decay_t<decltype(typed)>>(typed);

@@ -30,6 +30,9 @@ toml::table parse_toml(const std::string& text, const std::string& file);
 /// where it is no TOML.
 std::unique_ptr<toml::node> parse_plain_value(const std::string& text, bool takes_string);
 
+/// Sentence on a text after --set that is not UTF-8, or no key=value; "" for others.
+std::string override_fault(const std::string& text);
+
 std::unique_ptr<toml::node> clone(const toml::node& node);
 
 }  // namespace tread

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -44,6 +45,12 @@ std::string read_bytes(const fs::path& path, std::size_t limit) {
 std::string read_text_file(const fs::path& path, std::size_t limit) {
   std::string text = read_bytes(path, limit);
   if (text.find('\0') != std::string::npos) refuse(path, "it is a binary file, not text");
+  return text;
+}
+
+std::string without_mark(std::string text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
   return text;
 }
 

@@ -15,4 +15,7 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t limit);
 /// regular file, larger than the limit, or binary (contains NUL bytes).
 std::string read_text_file(const std::filesystem::path& path, std::size_t limit);
 
+/// The text without the byte-order mark with which Windows begins a file in UTF-8.
+std::string without_mark(std::string text);
+
 }  // namespace tread

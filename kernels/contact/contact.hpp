@@ -170,6 +170,8 @@ class Contact {
 
   /// Half length of the stretch about the wheel's axis that is searched [m].
   double reach() const { return search_.reach(); }
+  /// The same with a corrugation of that depth [m].
+  double reach_over(double corrugation) const { return search_.reach_over(corrugation); }
 
   /// Bytes of the integration points' histories and of the nodes about the patch.
   std::int64_t bytes() const;

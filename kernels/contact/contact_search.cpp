@@ -65,11 +65,17 @@ ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, co
 
 void ContactSearch::set_corrugation(Corrugation corrugation) {
   surfaces_.set_corrugation(std::move(corrugation));
-  deepest_ = std::max(options_.depth_room, surfaces_.corrugation().deepest());
-  for (const RunningSurface* surface : {&surfaces_.rail_depth(), &surfaces_.wheel_depth()})
-    deepest_ += surface->room(options_.wheel_radius, options_.reach_gap);
+  deepest_ = depth_over(surfaces_.corrugation().deepest());
   choose_edges();
   make_room();
+}
+
+/// Depth that there is room for, of all shapes together, with a corrugation of that depth [m].
+double ContactSearch::depth_over(double corrugation) const {
+  double deepest = std::max(options_.depth_room, corrugation);
+  for (const RunningSurface* surface : {&surfaces_.rail_depth(), &surfaces_.wheel_depth()})
+    deepest += surface->room(options_.wheel_radius, options_.reach_gap);
+  return deepest;
 }
 
 /// Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
@@ -133,8 +139,8 @@ void ContactSearch::make_room() {
 }
 
 /// A circle of the wheel's radius lies reach_gap and the depth of both surfaces above its lowest point there.
-double ContactSearch::reach() const {
-  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest_));
+double ContactSearch::reach_within(double deepest) const {
+  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest));
 }
 
 std::optional<ContactSearch::Aim> ContactSearch::aim_at(const BodyFrame& wheel, double dt) const {
@@ -162,13 +168,16 @@ std::optional<ContactSearch::Aim> ContactSearch::aim_at(const BodyFrame& wheel, 
 void ContactSearch::refuse(const BodyFrame& wheel, bool at_rest) const {
   const std::vector<double>& stations = surfaces_.rail().stations;
   const double wheel_x = wheel.origin.x;
-  if (!(wheel_x - reach() >= stations.front() && wheel_x + reach() <= stations.back()))
+  const bool before = !(wheel_x - reach() >= stations.front());
+  if (before || !(wheel_x + reach() <= stations.back())) {
+    const char* later = before ? "shorten motion.duration or state a larger rail.origin"
+                               : "shorten motion.duration or lengthen rail.length";
     throw NumericalError(
         fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
                     "m), as the patch is searched for within {:.1f} mm; {}",
                     wheel_x, stations.front(), stations.back(), 1e3 * reach(),
-                    at_rest ? "state a lower load, lengthen rail.length, or move rail.origin"
-                            : "shorten motion.duration or lengthen rail.length"));
+                    at_rest ? "state a lower load, lengthen rail.length, or move rail.origin" : later));
+  }
   throw NumericalError(fmt::format(
       "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out", wheel_x));
 }

@@ -89,7 +89,9 @@ class ContactSearch {
   const ContactPoint* point_at_the_end(const BodyFrame& wheel, const std::vector<ContactPoint>& points) const;
 
   /// Half length of the stretch about the wheel's axis that is searched [m].
-  double reach() const;
+  double reach() const { return reach_within(deepest_); }
+  /// The same with a corrugation of that depth [m].
+  double reach_over(double corrugation) const { return reach_within(depth_over(corrugation)); }
   /// Height of the wheel's axis at which the undeformed wheel touches the smooth rail [m].
   double touching_height() const { return touching_height_; }
   /// Depth by which the undeformed wheel touches lower over `wheel_x` [m], its start, for the depths of both
@@ -118,6 +120,8 @@ class ContactSearch {
   void make_room();
   [[noreturn]] void refuse(const BodyFrame& wheel, bool at_rest) const;
   void visit_column(const Visit& visit, int station);
+  double depth_over(double corrugation) const;
+  double reach_within(double deepest) const;
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
   /// Number of a rail face among all.
   std::int64_t face_index(int station, int edge) const {

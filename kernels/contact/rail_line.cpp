@@ -1,5 +1,6 @@
 #include "kernels/contact/rail_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -18,8 +19,14 @@ RailLine::RailLine(const SweptBlock& rail, double y)
     slot_.push_back(rail.base + rail.slot(nearest, station));
 }
 
-void RailLine::note_static(ConstNodeField displacement) {
-  for (std::size_t i = 0; i < slot_.size(); ++i) at_rest_[i] = displacement.at(slot_[i]).z;
+std::vector<double> RailLine::rise(ConstNodeField displacement) const {
+  std::vector<double> values(slot_.size());
+  for (std::size_t i = 0; i < slot_.size(); ++i) values[i] = displacement.at(slot_[i]).z;
+  return values;
+}
+
+void RailLine::note_static(std::span<const double> at_rest) {
+  std::ranges::copy(at_rest.first(std::min(at_rest.size(), at_rest_.size())), at_rest_.begin());
 }
 
 void RailLine::note_rolling(ConstNodeField displacement, double wheel_x) {

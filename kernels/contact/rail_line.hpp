@@ -2,6 +2,7 @@
 // Deflection of the rail's running surface along a line. [paper, Fig. 7]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/node_field.hpp"
@@ -17,7 +18,11 @@ class RailLine {
   /// The row nearest to y [m].
   RailLine(const SweptBlock& rail, double y);
 
-  void note_static(ConstNodeField displacement);
+  /// Upward displacement of its nodes, by station [m].
+  std::vector<double> rise(ConstNodeField displacement) const;
+
+  /// `at_rest`: rise() of the static state; empty: zeros.
+  void note_static(std::span<const double> at_rest);
   /// `wheel_x`: where the wheel stands [m].
   void note_rolling(ConstNodeField displacement, double wheel_x);
 

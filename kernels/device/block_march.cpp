@@ -243,11 +243,13 @@ MarchRuns BlockMarch<Real>::near(TileSpan tiles) const {
     first = std::max(first, 0);
     last = std::min(last, all - 1);
   }
-  const int from = (first + all) % all / block_.run_tiles;
-  const int to = last % all / block_.run_tiles;
+  first = (first + all) % all;
+  last %= all;
+  const int from = first / block_.run_tiles;
+  const int to = last / block_.run_tiles;
   const int count = (to - from + block_.runs()) % block_.runs() + 1;
   // A stretch that begins and ends in one run lies in it, or passes all others.
-  const bool around = count == 1 && last - first >= block_.run_tiles;
+  const bool around = count == 1 && first > last;
   return {from, around ? block_.runs() : count};
 }
 

@@ -115,7 +115,6 @@ std::int64_t DeviceSums<Real, U>::sum_block(MarchFan<Real, U>& marches, int bloc
   task.block = marches.block(block).at({});
   task.corner = blocks_[index(block)].corner.data();
   task.u = fields.u;
-  task.v = fields.v;
   task.lag = fields.lag;
   if (fields.branch != nullptr) {
     task.strength = fields.branch->strength;

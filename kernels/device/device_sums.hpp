@@ -55,7 +55,6 @@ class DeviceSums {
   /// Elements of a block, and what they have besides displacements.
   struct ElementFields {
     const U* u = nullptr;
-    const Real* v = nullptr;    ///< ElementSumTask::v
     const Real* lag = nullptr;  ///< ElementSumTask::lag
     const MaxwellBranch* branch = nullptr;
     const Real* state = nullptr;  ///< ElementSumTask::state

@@ -233,32 +233,23 @@ struct SumElements {
       return task.u[at(node, of_tile, of_lane, c)];
     };
     const Strain<U> strain = strain_of(tile, number, quad, lane, element, displacement);
-    if (task.v != nullptr) {
-      const auto damped = [&](int node, int of_tile, int of_lane, int c) {
-        return task.u[at(node, of_tile, of_lane, c)] +
-               static_cast<U>(task.block.damping * task.v[at(node, of_tile, of_lane, c)]);
-      };
-      sum[sum_stored] +=
-          half_work(constants, element, strain, strain_of(tile, number, quad, lane, element, damped));
-    } else {
-      add_law_energy(constants, number, quad, lane, place, element, strain, sum);
-    }
+    add_law_energy(constants, number, quad, lane, place, element, strain, sum);
     if (task.lag == nullptr) return;
     const auto lag = [&](int node, int of_tile, int of_lane, int c) {
       return static_cast<U>(task.lag[at(node, of_tile, of_lane, c)]);
     };
     const Strain<U> of_lag = strain_of(tile, number, quad, lane, element, lag);
-    const double stored = task.strength * half_work(constants, element, of_lag, of_lag);
+    const double stored = task.strength * half_work(constants, element, of_lag);
     sum[sum_branch] += stored;
     sum[sum_power] += task.power * stored;
   }
 
-  /// Half of the work of a strain under the linear forces of another.
+  /// Half of the work of a strain under its linear forces.
   template <class Element>
   TREAD_BODY static double half_work(const SweptConstants<Real>& constants, const Element& element,
-                                     const Strain<U>& strain, const Strain<U>& of_force) {
+                                     const Strain<U>& strain) {
     Strain<U> force;
-    strain_forces<false>(constants, element, of_force, force);
+    strain_forces<false>(constants, element, strain, force);
     double work = 0;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) work += force.g[i][j] * strain.g[i][j];

@@ -67,9 +67,6 @@ struct ElementSumTask {
   MarchBlock<Real> block;
   const int* corner = nullptr;  ///< section nodes of the quads: [place][4]
   const U* u = nullptr;         ///< [m]
-  /// Velocity [m/s]: the elements store half of the work that their forces, of displacement and damping, do
-  /// on the displacement. Null: what their law says.
-  const Real* v = nullptr;
   const Real* lag = nullptr;    ///< of a Maxwell branch [m]; null: none
   double strength = 0;          ///< of the branch [-]
   double power = 0;             ///< of its dashpot, over what its spring stores [1/s]

@@ -86,18 +86,23 @@ template class BodyMotion<float, float>;
 
 namespace {
 
-/// Shares of the edges at a corner in the way `along`.
-struct EdgeShares {
-  std::array<double, 3> share;
-  double volume;  ///< of the edges [m3]
-};
+using Edges = std::array<Vec3, 3>;
 
-EdgeShares edge_shares(const std::array<Vec3, 3>& edge, const Vec3& along) {
-  const double volume = dot(edge[0], cross(edge[1], edge[2]));
-  EdgeShares shares{{}, volume};
-  for (std::size_t k = 0; k < 3; ++k)
-    shares.share[k] = dot(along, cross(edge[(k + 1) % 3], edge[(k + 2) % 3])) / volume;
-  return shares;
+Edges edges_at(const std::array<Vec3, 8>& corners, std::size_t corner) {
+  Edges edges;
+  for (std::size_t k = 0; k < 3; ++k) edges[k] = corners[kHexNeighbours[corner][k]] - corners[corner];
+  return edges;
+}
+
+double volume_of(const Edges& edges) {
+  return dot(edges[0], cross(edges[1], edges[2]));
+}
+
+/// Mean volume of the edges at the corners [m3].
+double mean_volume(const std::array<Vec3, 8>& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 8; ++i) sum += volume_of(edges_at(corners, i));
+  return sum / 8;
 }
 
 }  // namespace
@@ -107,25 +112,25 @@ std::vector<Vec3> along_motion(const HexBody& body, const double* field) {
     const std::int64_t slot = body.slot(node);
     return Vec3{field[dof(slot, 0)], field[dof(slot, 1)], field[dof(slot, 2)]};
   };
-  // The corners' differences, weighted so that those of two elements in a line make a parabola's.
+  // The corners' gradients, weighted by volume / mean^2: those of two bricks in a line make a parabola's, and
+  // a flat corner, whose gradient is uncertain, counts for little.
   std::vector<Vec3> change(body.mesh.nodes.size());
   std::vector<double> weights(body.mesh.nodes.size(), 0.0);
-  for (const HexCorners& corners : body.mesh.elements)
+  for (std::size_t e = 0; e < body.mesh.elements.size(); ++e) {
+    const HexCorners& nodes = body.mesh.elements[e];
+    const std::array<Vec3, 8> corners = body.mesh.corners(e);
+    const double mean = mean_volume(corners);
+    const double scale = 1 / (mean * mean);
     for (std::size_t i = 0; i < 8; ++i) {
-      const Vec3& here = body.mesh.nodes[index(corners[i])];
-      std::array<Vec3, 3> edge, difference;
+      const Edges edges = edges_at(corners, i);
+      const Vec3 along = body.spins ? cross({0, 1, 0}, corners[i]) : Vec3{1, 0, 0};
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t other = corners[kHexNeighbours[i][k]];
-        edge[k] = body.mesh.nodes[index(other)] - here;
-        difference[k] = value(other) - value(corners[i]);
+        const double share = dot(along, cross(edges[(k + 1) % 3], edges[(k + 2) % 3]));
+        change[index(nodes[i])] += scale * share * (value(nodes[kHexNeighbours[i][k]]) - value(nodes[i]));
       }
-      const Vec3 along = body.spins ? cross({0, 1, 0}, here) : Vec3{1, 0, 0};
-      const EdgeShares shares = edge_shares(edge, along);
-      const double weight = 1 / shares.volume;
-      for (std::size_t k = 0; k < 3; ++k)
-        change[index(corners[i])] += weight * shares.share[k] * difference[k];
-      weights[index(corners[i])] += weight;
+      weights[index(nodes[i])] += scale * volume_of(edges);
     }
+  }
   for (std::size_t node = 0; node < change.size(); ++node) change[node] = (1 / weights[node]) * change[node];
   return change;
 }

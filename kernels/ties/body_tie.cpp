@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/index.hpp"
@@ -74,6 +76,28 @@ double area_of(const Side& side) {
   return sum;
 }
 
+/// Share of a turn about the axle over which there are faces, by the middles of sectors.
+double share_of_turn(const Side& side) {
+  constexpr int kSectors = 720;
+  constexpr double kSector = 2 * std::numbers::pi / kSectors;
+  const auto angle = [](const Vec3& at) { return std::atan2(at.x, at.z); };
+  std::array<bool, kSectors> met{};
+  for (const FaceCorners& face : side.corners) {
+    const double at = angle(face[0]);
+    double low = 0, high = 0;  // of the other corners, from there
+    for (const Vec3& corner : face) {
+      const double beside = std::remainder(angle(corner) - at, 2 * std::numbers::pi);
+      low = std::min(low, beside);
+      high = std::max(high, beside);
+    }
+    const auto sector = [&](double beside) {  // the first whose middle lies beyond
+      return static_cast<int>(std::ceil((at + beside) / kSector - 0.5));
+    };
+    for (int i = sector(low); i < sector(high); ++i) met[index((i + 2 * kSectors) % kSectors)] = true;
+  }
+  return static_cast<double>(std::count(met.begin(), met.end(), true)) / kSectors;
+}
+
 /// Secondary nodes may lie off the primary faces by this share of a face's longest edge, and are moved onto
 /// them: chords of a ring of 30 elements are off by 3 % of their length.
 constexpr double kFarthest = 0.1;
@@ -81,7 +105,7 @@ constexpr double kFarthest = 0.1;
 /// Digits of a file leave gaps of this share of an edge; nodes stay where they are, for moved ones cost more.
 constexpr double kDigits = 1e-6;
 
-/// Share of the block's surface that a set must cover which is to cover it.
+/// Share of the block's surface that a set must cover which is to cover it, and of the way around a wheel's.
 constexpr double kLeastCover = 0.95;
 
 class TieMaker {
@@ -134,6 +158,13 @@ class TieMaker {
           fmt::format("{} = \"{}\": its faces cover {:.1f} % of the surface that they are tied to, at least "
                       "{:.0f} % are needed; {}; see the keys unit and origin_x, origin_y, origin_z",
                       spec_.key, spec_.set, 100 * cover, 100 * kLeastCover, surface_text()));
+    const double around = block_.closed ? share_of_turn(of_body_) : 1;
+    if (around < kLeastCover)
+      throw InputError(
+          fmt::format("{} = \"{}\": its faces go {:.1f} % of the way around the axle, at least {:.0f} % are "
+                      "needed; name the set of all nodes of the tied surface; {}; see the keys unit and "
+                      "origin_x, origin_y, origin_z",
+                      spec_.key, spec_.set, 100 * around, 100 * kLeastCover, surface_text()));
   }
 
   std::string surface_text() const {

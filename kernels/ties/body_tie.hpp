@@ -30,8 +30,8 @@ struct BodyTie {
 };
 
 /// Locates and moves the secondary nodes; call it before coefficients are made. Throws InputError if they lie
-/// further off the primary faces than a tenth of these, if the set has no faces or does not cover the line,
-/// or if the moved nodes fold an element of the body.
+/// further off the primary faces than a tenth of these, if the set has no faces, does not cover the line or
+/// does not go around a closed block, or if the moved nodes fold an element of the body.
 BodyTie tie_body(Mesh& mesh, const BodyTieSpec& spec);
 
 }  // namespace tread

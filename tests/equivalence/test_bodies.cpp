@@ -21,6 +21,7 @@
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/studies/export/keyword_export.hpp"
 #include "io/mesh/imported_mesh.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -175,6 +176,34 @@ TEST(Bodies, HaveTheForcesOfTheSweptRail) {
   const Model model(with_base(swept, scene));
   EXPECT_EQ(model.restrained.size(), swept.restrained.size());
   expect_same_forces(swept, model, 1e-12, 1e-11);
+}
+
+/// The beam of a rolling start has the section and the material of the built-in rail.
+TEST(Bodies, ThatAreNoneOfTheBeamAreNamed) {
+  const Scene scene = wheelset_scene({"motion.start=rolling"});
+  Scene with_body = with_base(Model(scene), scene);
+  const auto warning = [](const Scene& of) {
+    for (const std::string& text : resolution_warnings(Model(of)))
+      if (text.find("rail.profile and rail.material alone") != std::string::npos) return text;
+    return std::string();
+  };
+  EXPECT_EQ(warning(scene), "");
+  EXPECT_EQ(warning(with_body), "");
+  BodySpec& base = with_body.bodies.at("base");
+  Material soft = scene.rail_material();
+  soft.name = "soft";
+  soft.youngs_modulus *= 0.9;
+  with_body.materials["soft"] = soft;
+  base.material = "soft";
+  EXPECT_NE(warning(with_body).find("body.base of another Young's modulus"), std::string::npos);
+  base.material.clear();
+  HexMesh deeper = *base.mesh;  // the head's lower side and what lies near it stay
+  for (Vec3& at : deeper.nodes) at.z = std::min(at.z, -0.1 + 1.5 * (at.z + 0.1));
+  base.mesh = std::make_shared<const HexMesh>(std::move(deeper));
+  EXPECT_NE(warning(with_body).find("body.base of "), std::string::npos);
+  EXPECT_NE(warning(with_body).find(" cm2 below its head, makes F_N swing"), std::string::npos);
+  with_body.motion->start = "moving";
+  EXPECT_EQ(warning(with_body), "");
 }
 
 /// Between stations tied nodes lie where they are nearest to the chord, and not at their angle's share of it.

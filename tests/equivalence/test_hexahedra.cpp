@@ -6,17 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "core/mesh/structured.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "io/mesh/imported_mesh.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/element/hexahedron.hpp"
+#include "kernels/hexahedra/body_force.hpp"
 #include "kernels/hexahedra/hex_force.hpp"
 #include "tests/exported_deck.hpp"
+#include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
@@ -187,6 +191,57 @@ TEST(Hexahedra, ForceOfDistortedElementsIsThatOfTheOracle) {
       EXPECT_LT(difference(f, expected), 1e-12) << set;
     }
   }
+}
+
+/// Two bricks and an element whose corner between them is nearly flat, in a plane field u_x(x, y).
+double change_beside_a_flat_corner(double flatness, const std::function<double(double, double)>& field) {
+  constexpr double h = 10e-3;
+  const std::vector<std::array<double, 2>> plane = {
+      {0, 0}, {-h, 0}, {-h, h}, {0, h}, {-h, -h}, {0, -h}, {flatness * h, -0.5 * h}, {h, 0.7 * h}};
+  HexBody body;
+  for (const double z : {0.0, h})
+    for (const auto& [x, y] : plane) body.mesh.nodes.push_back({x, y, z});
+  for (const auto& quad : std::vector<std::array<int, 4>>{{1, 0, 3, 2}, {4, 5, 0, 1}, {0, 6, 7, 3}}) {
+    HexCorners& corners = body.mesh.elements.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) {
+      corners[k] = quad[k];
+      corners[k + 4] = quad[k] + static_cast<int>(plane.size());
+    }
+  }
+  std::vector<double> values(index(3 * body.slots()), 0.0);
+  for (std::size_t node = 0; node < body.mesh.nodes.size(); ++node)
+    values[index(dof(body.slot(static_cast<std::int64_t>(node)), 0))] =
+        field(body.mesh.nodes[node].x, body.mesh.nodes[node].y);
+  return along_motion(body, values.data()).front().x;
+}
+
+TEST(AlongMotion, AFlatCornerCountsForLittle) {
+  const auto linear = [](double x, double y) { return 1e-3 * x + 2e-3 * y; };
+  const auto bent = [](double x, double y) { return 1e-3 * x + 0.05 * y * y; };
+  for (const double flatness : {0.1, 0.01}) {
+    EXPECT_NEAR(change_beside_a_flat_corner(flatness, linear), 1e-3, 1e-12) << flatness;
+    const double change = change_beside_a_flat_corner(flatness, bent);
+    measured(fmt::format("flatness {}: change / exact - 1", flatness), change / 1e-3 - 1);
+    EXPECT_NEAR(change, 1e-3, 0.4e-3) << flatness;
+  }
+}
+
+TEST(AlongMotion, IsExactForAParabolaOnBricksOfTwoLengths) {
+  const auto parabola = [](double x) { return 0.3 * x + 2 * x * x; };
+  HexBody body;
+  body.mesh = hexahedra_of(make_swept_block("bricks", Sweep::extruded, rectangle(0, 0.02, 2, 0, 0.01, 1),
+                                            samples::materials(), 0, {{1, 0.01, 0}, {1, 0.025, 0}}));
+  std::vector<double> values(index(3 * body.slots()), 0.0);
+  for (std::size_t node = 0; node < body.mesh.nodes.size(); ++node)
+    values[index(dof(body.slot(static_cast<std::int64_t>(node)), 0))] = parabola(body.mesh.nodes[node].x);
+  const std::vector<Vec3> change = along_motion(body, values.data());
+  int between = 0;
+  for (std::size_t node = 0; node < change.size(); ++node) {
+    if (std::abs(body.mesh.nodes[node].x - 0.01) > 1e-6) continue;
+    ++between;
+    EXPECT_NEAR(change[node].x, 0.3 + 4 * 0.01, 1e-12);
+  }
+  EXPECT_EQ(between, 6);
 }
 
 TEST(Hexahedra, RowsHoldElementsThatShareFaces) {

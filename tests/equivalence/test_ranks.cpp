@@ -72,12 +72,29 @@ TEST(Ranks, MaxwellBranches) {
         {"scene.element_size=10 mm", "motion.duration=0.5 ms", std::string("scene.precision=") + precision}));
 }
 
+const std::vector<std::string> kPlastic = {
+    "material.steel.law=j2", "material.steel.yield_stress=300 MPa",
+    "material.steel.isotropic_hardening=20 GPa",
+    "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"};
+
 TEST(Ranks, PlasticMaterialWithDamping) {
-  for (const char* precision : kPrecisions)
-    expect_same_bits(
-        tyre(precision, {"material.steel.law=j2", "material.steel.yield_stress=300 MPa",
-                         "material.steel.isotropic_hardening=20 GPa",
-                         "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}));
+  for (const char* precision : kPrecisions) expect_same_bits(tyre(precision, kPlastic));
+}
+
+/// Samples alone read the state of laws. Rank 0 gets all of it at the end of each stretch.
+TEST(Ranks, LooksAtTheEnergiesFetchNoStateOfLaws) {
+  const samples::PreloadedScene of(tyre("double", kPlastic));
+  const samples::SharedRun shared(of, *of.start(nullptr), 2);
+  const auto received_until = [&](std::int64_t steps) {
+    const std::int64_t before = shared.received();
+    shared.roll_on(steps);
+    return shared.received() - before;
+  };
+  received_until(20);
+  const std::int64_t without = received_until(30);
+  const std::int64_t with_look = received_until(40);  // after 35 steps
+  EXPECT_GT(without, 0);
+  EXPECT_LT(with_look, 1.1 * static_cast<double>(without));
 }
 
 TEST(Ranks, GuidedBoreAndFallingFriction) {

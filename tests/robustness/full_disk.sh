@@ -12,6 +12,7 @@ if [[ ${FULL_DISK_INSIDE:-} != yes ]]; then
   FULL_DISK_INSIDE=yes exec unshare --map-root-user --mount "$0" "$@"
 fi
 shift 2
+command -v h5diff >/dev/null || { echo "there is no h5diff; the Debian package hdf5-tools has it"; exit 1; }
 export OMP_WAIT_POLICY=passive TREAD_CACHE=off
 work=$(mktemp -d)
 trap 'umount "$work/disk" 2>/dev/null || true; rm -rf "$work"' EXIT
@@ -21,9 +22,7 @@ largest=$(du -sk "$work/whole" | cut -f1)
 
 expect_same() {
   for file in histories.csv surface_axis.csv; do cmp "$work/whole/$file" "$work/disk/run/$file"; done
-  if command -v h5diff >/dev/null; then
-    for file in run.h5 patch.h5 surface.h5; do h5diff "$work/whole/$file" "$work/disk/run/$file"; done
-  fi
+  for file in run.h5 patch.h5 surface.h5; do h5diff "$work/whole/$file" "$work/disk/run/$file"; done
 }
 
 # kB, and the time between checkpoints: often, and only one at the start.

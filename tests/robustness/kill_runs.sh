@@ -5,6 +5,7 @@
 set -euo pipefail
 tread=$1 scene=$2 kills=$3
 shift 3
+command -v h5diff >/dev/null || { echo "there is no h5diff; the Debian package hdf5-tools has it"; exit 1; }
 export OMP_WAIT_POLICY=passive TREAD_CACHE=off
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -47,9 +48,7 @@ for file in histories.csv surface_axis.csv; do
   if [[ -e $work/whole/$file ]]; then cmp "$work/whole/$file" "$work/killed/$file"; fi
 done
 [[ $(hash "$work/whole") = "$(hash "$work/killed")" ]] || { echo "the state hashes differ"; exit 1; }
-if command -v h5diff >/dev/null; then
-  for file in run.h5 patch.h5 surface.h5; do
-    if [[ -e $work/whole/$file ]]; then h5diff "$work/whole/$file" "$work/killed/$file"; fi
-  done
-fi
+for file in run.h5 patch.h5 surface.h5; do
+  if [[ -e $work/whole/$file ]]; then h5diff "$work/whole/$file" "$work/killed/$file"; fi
+done
 echo "$kills kills: the same files, state hash $(hash "$work/killed")"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run_script.sh SOURCES: ./run with a program that only notes its arguments: a long run has a preview first, a short one
-# and one with options that a preview cannot share have none, and the exit code is the program's.
+# run_script.sh SOURCES: ./run with a program that only notes its arguments: a long run has a preview first; a short one,
+# one with options that a preview cannot share and one that its elements refuse have none; the exit code is the run's.
 set -euo pipefail
 sources=$1
 work=$(mktemp -d)
@@ -20,10 +20,14 @@ echo "$*" >>"$NOTES"
 seconds=$SECONDS_OF_RUN
 [[ $* != *"6 mm"* ]] || seconds=50
 if [[ $1 == check ]]; then
+  [[ $* != *narrow*"6 mm"* ]] || exit 2
   printf '{\n  "preload_s": 1.5,\n  "rolling_s": %s,\n  "steps": 7\n}\n' "$seconds"
   exit 0
 fi
 [[ $* != *fails* ]] || exit 3
+for code in 2 3 75; do
+  [[ $* != *"coarse=$code"*"6 mm"* ]] || exit "$code"
+done
 while [[ $1 != -o ]]; do shift; done
 mkdir -p "$2" && touch "$2/report.html"
 STUB
@@ -62,8 +66,16 @@ try 150
 [[ $(runs) == 1 ]] || fail "a preview that takes a third of the run is none"
 try 660 --json
 [[ $(runs) == 1 ]] || fail "one object on stdout"
+try 660 --set narrow=1
+[[ $status == 0 && $(runs) == 1 ]] || fail "a scene that the preview's elements refuse runs without one"
+for code in 2 3; do
+  try 660 --set "coarse=$code"
+  [[ $status == 0 && $(runs) == 2 && ! -e $work/out/index.html ]] || fail "a preview that ends with $code ends nothing"
+done
+try 660 --set coarse=75
+[[ $status == 75 && $(runs) == 1 ]] || fail "a preview that is stopped ends the script with its code"
 try 660 --set fails=1
-[[ $status == 3 && $(runs) == 1 ]] || fail "a preview that fails ends the script with its code"
+[[ $status == 3 && $(runs) == 2 ]] || fail "a fault that the preview has, too, is the run's exit code"
 try 60 --set fails=1
 [[ $status == 3 ]] || fail "the exit code of the run"
 echo "The card of this machine is not used." >"$work/build/release/unused_card.txt"

@@ -191,6 +191,22 @@ TEST_F(Bench, RanksHoldEachElementOnceAndWhatIsSentIsReceived) {
   EXPECT_EQ(sent, received);
   EXPECT_GT(sent, 0);
   EXPECT_EQ(ranks(3, "--parts 3"), 2);
+  EXPECT_EQ(ranks(1000, ""), 2);  // more than the mesh has pieces
+}
+
+TEST_F(Bench, RanksTakeTheRailWithItsCorrugation) {
+  const auto cost = [this](const char* apply) {
+    const std::string sine =
+        "--set corrugation.kind=sine --set \"corrugation.wavelength=20 mm\" "
+        "--set \"corrugation.depth=0.04 mm\" --set \"corrugation.width=30 mm\" "
+        "--set \"corrugation.start=150 mm\" --set \"corrugation.length=40 mm\"";
+    EXPECT_EQ(call(fmt::format("ranks {} -t 1 --ranks 1 --set \"scene.element_size=8 mm\" {} "
+                               "--set corrugation.apply={} {}",
+                               samples::scene_word("tyre.toml"), sine, apply, kSmoke)),
+              0);
+    return number(records().front(), "cost");
+  };
+  EXPECT_GT(cost("nodes"), cost("gap"));  // quads at moved nodes cost twice as much
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "drivers/process/version.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/results/patch_file.hpp"
+#include "io/files/checkpoint_folder.hpp"
 #include "io/text/json.hpp"
 #include "tests/commands_test.hpp"
 
@@ -125,6 +127,28 @@ TEST_F(Commands, MoreThreadsThanCoresAreAWarning) {
   EXPECT_EQ(call("check -t 100000 " + scene("bar-wave.toml")).code, 2);
 }
 
+TEST_F(Commands, BoundThreadsKeepToACoreEach) {
+  if (machine_cores() < 2) GTEST_SKIP() << "this machine has one core";
+  const samples::Program program;
+  const pid_t run = program.start(
+      fmt::format("run {} -t 2 --bind --quiet -o {}", scene("tyre.toml"), (folder_ / "out").string()));
+  const std::string name = "Cpus_allowed_list:\t";
+  EXPECT_TRUE(samples::wait_until([&] {
+    std::error_code none;
+    for (const fs::directory_entry& thread :
+         fs::directory_iterator(fmt::format("/proc/{}/task", run), none)) {
+      const std::string status = samples::content_of(thread.path() / "status");
+      const std::size_t place = status.find(name);
+      if (place == std::string::npos) continue;
+      // A list of several holds "-" or ",".
+      if (status[status.find_first_of("-,\n", place)] == '\n') return true;
+    }
+    return false;
+  })) << program.errors();
+  ::kill(run, SIGTERM);
+  EXPECT_EQ(samples::wait_for(run), 75) << program.errors();
+}
+
 TEST_F(Commands, AFinishedRunIsNotOverwritten) {
   const std::string run = fmt::format("run -t 1 --quiet --set output.frames=0 {} -o {}/out",
                                       scene("bar-wave.toml"), folder_.string());
@@ -143,6 +167,65 @@ TEST_F(Commands, AFinishedRunIsNotOverwritten) {
   std::ofstream(folder_ / "out" / "compare.json") << "{}\n";  // of `tread compare`
   EXPECT_EQ(call(run + " --overwrite").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "out" / "compare.json"));
+}
+
+TEST_F(Commands, WhatCheckRefusesIsNeitherSolvedNorTakesTheWayOfAFinishedRun) {
+  const std::string tyre =
+      fmt::format("-t 1 {} --set \"motion.duration=0.1 ms\" --set output.frames=0 ", scene("tyre.toml"));
+  const std::string coarse = "--set \"scene.element_size=8 mm\" ";
+  const std::string waves =
+      "--set corrugation.wavelength=20mm --set corrugation.start=0.13m --set corrugation.length=60mm ";
+  const std::string out = (folder_ / "out").string();
+  ASSERT_EQ(call(fmt::format("run --quiet -o {} {} {}", out, tyre, coarse)).code, 0);
+  const std::string summary = content("out/summary.json");
+  for (const auto& [wrong, answer] :
+       {std::pair{coarse + "--set probe.a.x=0.2m --set probe.a.depth=0.25m", "probe.a: 250 mm below"},
+        {coarse + "--set 'material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-5 s\" }'",
+         "material damping: "},
+        {coarse + "--set forks.present=true --set solution_zone.start=30mm", "state forks.at"},
+        {coarse +
+             "--set forks.present=true --set solution_zone.start=30mm --set corrugation.apply=gap --set "
+             "corrugation.depth=2mm --set corrugation.wavelength=20mm --set corrugation.start=55mm --set "
+             "corrugation.length=60mm",
+         "state forks.at"},
+        {coarse + "--set rail.origin=50mm --set corrugation.apply=gap --set corrugation.depth=10mm " + waves,
+         "the wheel stands at"},
+        {"--set scene.element_size=2mm --set corrugation.depth=7mm " + waves, "are turned inside out"}}) {
+    EXPECT_EQ(call(fmt::format("check {} {}", tyre, wrong)).code, 2) << wrong;
+    const Outcome anew = call(fmt::format("run -o {}/anew {} {}", folder_.string(), tyre, wrong));
+    EXPECT_EQ(anew.code, 2) << wrong;
+    EXPECT_TRUE(has(anew.errors, answer)) << anew.errors;
+    EXPECT_TRUE(has(anew.errors, "[mesh]") && !has(anew.errors, "[preload]")) << anew.errors;
+    const Outcome over = call(fmt::format("run --overwrite -o {} {} {}", out, tyre, wrong));
+    EXPECT_EQ(over.code, 2) << wrong;
+    EXPECT_TRUE(has(over.errors, answer)) << over.errors;
+    EXPECT_EQ(content("out/summary.json"), summary) << wrong;
+  }
+}
+
+/// Without the run, what was kept of its folder is all that is left.
+TEST_F(Commands, ResultsThatAreKeptAloneAreNotOverwritten) {
+  const auto run = [&](const char* folder, const std::string& more = "") {
+    return call(fmt::format("run -t 1 --quiet --set output.frames=0 {} {} -o {}/{}", more,
+                            scene("bar-wave.toml"), folder_.string(), folder));
+  };
+  EXPECT_EQ(run("out", "--set stop.steps=3").code, 4);
+  fs::create_directories(folder_ / "copies");
+  fs::copy_file(folder_ / "out/run.h5", folder_ / "copies/run.h5");
+  fs::create_directories(folder_ / "states");
+  fs::copy(folder_ / "out/checkpoint", folder_ / "states/forks");
+  for (const auto& [folder, kept] : {std::pair{"copies", "run.h5"}, {"states", "forks/"}}) {
+    const Outcome refused = run(folder);
+    EXPECT_EQ(refused.code, 2) << folder;
+    EXPECT_TRUE(has(refused.errors, fmt::format("holds results of a run ({}): --overwrite", kept)))
+        << refused.errors;
+    EXPECT_EQ(run(folder, "--overwrite --set \"output.disk_limit=1 B\"").code, 2) << folder;
+    EXPECT_TRUE(fs::exists(folder_ / folder / kept)) << folder;
+    EXPECT_EQ(run(folder, "--overwrite").code, 0) << folder;
+  }
+  // A run that was killed before its first state has lost nothing.
+  for (const fs::path& state : CheckpointFolder(folder_ / "out/checkpoint").states()) fs::remove(state);
+  EXPECT_EQ(run("out").code, 0);
 }
 
 TEST_F(Commands, RefusedOnesLeaveAFolderAsItWas) {
@@ -166,17 +249,20 @@ TEST_F(Commands, RefusedOnesLeaveAFolderAsItWas) {
   EXPECT_EQ(std::distance(fs::directory_iterator(foreign), {}), 1);
 }
 
-TEST_F(Commands, WithoutAFolderARunGetsADatedOne) {
+TEST_F(Commands, WithoutAFolderARunGetsADatedOneOfItsOwn) {
+  // More runs than the seconds that they take.
   const std::string before = fmt::format("cd {} &&", folder_.string());
-  const pid_t process = samples::start_program(
-      "run -t 1 --quiet --set output.frames=0 --set motion.duration=1us " + scene("bar-wave.toml"), folder_,
-      before);
-  ASSERT_EQ(samples::wait_for(process), 0) << content("errors");
+  std::vector<pid_t> processes;
+  for (int i = 0; i < 6; ++i)
+    processes.push_back(samples::start_program(
+        "run -t 1 --quiet --set output.frames=0 --set motion.duration=1us " + scene("bar-wave.toml"), folder_,
+        before));
+  for (const pid_t process : processes) EXPECT_EQ(samples::wait_for(process), 0) << content("errors");
   int found = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
     found += entry.path().filename().string().starts_with("bar-wave-20") &&
              fs::exists(entry.path() / "summary.json");
-  EXPECT_EQ(found, 1);
+  EXPECT_EQ(found, 6);
 }
 
 TEST_F(Commands, MeshWritesAFile) {
@@ -280,6 +366,15 @@ TEST_F(Commands, StaticSceneIsComparedWithHertz) {
   const std::string report = content("report.html");
   EXPECT_TRUE(has(report, "Hertz for radii 430 and 430 mm; 2.1 elements across the patch do not resolve it"));
   EXPECT_FALSE(has(report, "Contact forces over"));
+}
+
+TEST_F(Commands, TheReportTellsOfATorqueThatRisesInAGuidedBore) {
+  EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} --set \"scene.element_size=12 mm\" --set "
+                             "\"motion.duration=0.02 ms\" --set wheel.bore=guided {}",
+                             folder_.string(), scene("tyre.toml")))
+                .code,
+            0);
+  EXPECT_TRUE(has(content("report.html"), "The torque still rises"));
 }
 
 /// The shipped scenes with a rolling wheel, on a mesh that is fast rather than good.
@@ -397,6 +492,7 @@ TEST_F(Commands, WrongWordsAreNamed) {
         {"run tyr", "tread: cannot read tyr: there is no such file; did you mean tyre?"},
         {"run nope", "tread: cannot read nope: there is no such file; shipped: "},
         {"run \"\"", "tread: the name of the scene is empty"},
+        {"run tyre -o \"\"", "tread run: --output: the name is empty"},
         {"sweep tyre", "is a scene, not a study: `tread run"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},

@@ -54,6 +54,25 @@ TEST_F(CompareCommand, SetsACurveBesideARun) {
   EXPECT_EQ(call(fmt::format("results {}", folder().string())), 0) << errors();
 }
 
+TEST_F(CompareCommand, SetsTheLongitudinalForceBesideARun) {
+  const auto columns =
+      read_history(folder() / "histories.csv", {{"wheel_x", "m"}, {"longitudinal_force", "N"}});
+  const fs::path pull = root_ / "pull.txt";
+  std::ofstream file(pull);
+  file << "# x [m]  F_L [N]\n";
+  for (std::size_t i = 0; i < columns[0].size(); ++i)
+    file << fmt::format("{} {}\n", columns[0][i], columns[1][i] - 300);
+  file.close();
+  const std::string command = fmt::format("compare {} {}", folder().string(), pull.string());
+  ASSERT_EQ(call(command + " --force F_L --json"), 0) << errors();
+  const json found = json::parse(output());
+  EXPECT_EQ(found["force"], "F_L");
+  EXPECT_NEAR(found["rms_difference_N"].get<double>(), 300, 0.01);
+  EXPECT_TRUE(has(content_of(folder() / "compare.html"), "Mean F<sub>L</sub>"));
+  EXPECT_EQ(call(command), 2);
+  EXPECT_TRUE(has(errors(), "the columns are named x, F_L; expected x, f_n")) << errors();
+}
+
 TEST_F(CompareCommand, WritesElsewhereIfTold) {
   write_curve();
   const fs::path other = root_ / "other";

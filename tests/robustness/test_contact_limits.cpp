@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/preload.hpp"
+#include "drivers/results/rail_ends.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -92,6 +93,80 @@ TEST(ContactLimits, HeavyLoadsAreSearchedForFarEnough) {
   EXPECT_NEAR(-preload.contact.force_on_rail.z, model.wheel_load(), 1e-6 * model.wheel_load());
   const HertzPatch& patch = model.hertz_patch;
   EXPECT_NEAR(preload.contact.area, M_PI * patch.semi_axis_x * patch.semi_axis_y, 0.1 * preload.contact.area);
+}
+
+/// Carter's half width a: the window ends where the gap is three times a^2 / 2R.
+TEST(ContactLimits, NarrowLineContactsAreSearchedForFarEnough) {
+  Scene disc =
+      samples::tyre_scene({"wheel.diameter=0.4 m", "wheel.width=10 mm", "rail.width=10 mm",
+                           "load.wheel_load=400 kN", "scene.gravity=0 m/s2", "scene.element_size=3 mm"});
+  disc.wheel->profile = "cylinder";
+  const Model model(disc);
+  ASSERT_NEAR(model.line_load(), 400e3 / 0.01, 1);
+  const double half_width = model.line_semi_axis();
+  ASSERT_GT(half_width, 9e-3);
+  EXPECT_NEAR(model.contact->reach(), std::sqrt(3) * half_width, 1e-6);
+}
+
+/// The scene's check leaves 20 mm to the rail's end, x = 0.3 m.
+TEST(ContactLimits, AWayNeedsRailForTheSearch) {
+  const auto scene_of = [](std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), {"scene.element_size=12 mm", "motion.duration=3.35 ms"});
+    return samples::tyre_scene(overrides);
+  };
+  const auto refusal = [](const Scene& scene) {
+    try {
+      require_way_on_rail(Model(scene));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(refusal(scene_of({})), "none");
+  const std::string large = refusal(scene_of({"wheel.diameter=1.2 m"}));
+  expect_part(large, "rolls to x = 0.279167 m, but its axis has to stay within x = -0.0780911 to 0.278091 m");
+  expect_part(large, "state a shorter motion.duration, or rail.length = \"0.6 m\"");
+  expect_part(refusal(scene_of({"surface.dip.kind=dip", "surface.dip.at=75 mm", "surface.dip.depth=2 mm",
+                                "surface.dip.length=0.2 m"})),
+              "rolls to x = 0.279167 m");
+  expect_part(refusal(scene_of({"wheel.diameter=1.2 m", "rail.origin=21 mm"})),
+              "the wheel stands at x = 0 m");
+
+  const Model wide(scene_of({"wheel.diameter=1.2 m"}));
+  EXPECT_EQ(keys_for_way(wide, 0.278), "");
+  EXPECT_EQ(keys_for_way(wide, 0.2785), "rail.length = \"0.6 m\"");
+  EXPECT_EQ(refusal(scene_of({"wheel.diameter=1.2 m", "rail.length=0.6 m"})), "none");
+
+  const Scene rough =
+      scene_of({"corrugation.start=55 mm", "corrugation.length=40 mm", "corrugation.wavelength=40 mm"});
+  expect_part(refusal(rough), "rolls to x = 0.279167 m");
+  const Model smooth(rough), corrugated(rough, 0.0);
+  EXPECT_EQ(searched_reach(smooth), corrugated.contact->reach());
+  EXPECT_GT(searched_reach(smooth), 1.1 * smooth.contact->reach());
+}
+
+TEST(ContactLimits, AWheelThatTurnsBackNeedsAnotherOrigin) {
+  Scene scene = samples::tyre_scene({"scene.element_size=12 mm", "motion.traction.mu=-0.4"});
+  scene.motion->speed = 0;
+  scene.motion->ramp = 0;
+  scene.motion->duration = 20e-3;
+  const Model model(scene);
+  try {
+    require_way_on_rail(model);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    expect_part(error.what(), "or a larger rail.origin");
+  }
+  for (const double x : {-0.09, 0.29}) {
+    BodyFrame wheel;
+    wheel.origin.x = x;
+    try {
+      model.contact->searching().aim(wheel, 1e-7);
+      FAIL() << "accepted";
+    } catch (const NumericalError& error) {
+      expect_part(error.what(), x < 0 ? "or state a larger rail.origin" : "or lengthen rail.length");
+    }
+  }
 }
 
 TEST(ContactLimits, PatchAtTheEndOfTheSearchedSurfaceStops) {

@@ -192,6 +192,28 @@ TEST_F(Develop, AStoppedPassageIsNoFailure) {
   EXPECT_TRUE(has(errors(), "nothing is lost")) << errors();
 }
 
+/// As where no more than the state is left of a run.
+TEST_F(Develop, TheRunItBeginsWithNeedsAStateAndRoomForTheCorrugation) {
+  const fs::path other = root_ / "other";
+  fs::create_directories(other);
+  const std::string from = "--from " + other.string();
+  expect_refused(kCorrugation + kWear, "other has no state to begin with", from);
+  fs::copy(root_ / "whole/passage-0000/forks", other / "forks");
+  std::string deep = kCorrugation;
+  deep.replace(deep.find("2 um"), 4, "400 um");
+  expect_refused(deep + kWear, "and the run there has room for 0.2 mm", from);
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(Develop, AStatedStateIsBeforeTheCorrugation) {
+  expect_refused(kCorrugation + kWear + "[forks]\nat = \"2 ms\"\n",
+                 "tread develop: forks.at = 2 ms: all passages begin with the state of that time");
+  EXPECT_TRUE(has(errors(), " ms; state at most ")) << errors();
+  EXPECT_FALSE(fs::exists(folder_));
+  const std::string early = "[forks]\nat = \"0.4 ms\"\n[stop]\nwall_time = \"1 ms\"\n";
+  EXPECT_EQ(call(develop(folder_, 1, kCorrugation + kWear + early)), 75) << errors();
+}
+
 TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kCorrugation, "the scene has no [wear]");
   expect_refused(kWear, "the scene has no [corrugation]");

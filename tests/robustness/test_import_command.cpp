@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "tests/mesh_files.hpp"
 #include "tests/program.hpp"
@@ -37,6 +39,30 @@ TEST(ImportCommand, ReadsAnExportedScene) {
   EXPECT_NEAR(7790 * read["volume_m3"].get<double>() / mass, 1, 1e-12);
   EXPECT_NEAR(read["element_step_s"]["value"].get<double>() / step, 1, 1e-9);
   EXPECT_GE(read["stable_step_s"], read["element_step_s"]["value"]);
+}
+
+TEST(ImportCommand, TakesTheMaterialForMassAndStep) {
+  const Program program;
+  const std::string file = program.write("bar.inp", abaqus_file()).string();
+  const auto step = [&](const std::string& options) {
+    EXPECT_EQ(program.call(fmt::format("import {} --unit mm --json {}", file, options)), 0)
+        << program.errors();
+    const json read = json::parse(program.out());
+    return std::pair(read["element_step_s"]["value"].get<double>(), read["stable_step_s"].get<double>());
+  };
+  const auto steel = step("");
+  const auto expect = [&](const std::string& options, double factor, double tolerance) {
+    const auto [element, mesh] = step(options);
+    EXPECT_NEAR(element / steel.first, factor, tolerance) << options;
+    EXPECT_NEAR(mesh / steel.second, factor, tolerance) << options;
+  };
+  expect("--youngs-modulus \"823.6 GPa\"", 0.5, 1e-9);
+  expect("--density \"31160 kg/m3\"", 2, 1e-9);
+  // Without it the modulus is 1 / 1.346 of that at 0.3 under strain along one axis, 1 / 2.5 under pressure.
+  expect("--poissons-ratio 0", 0.5 * (std::sqrt(1.346) + std::sqrt(2.5)),
+         0.5 * (std::sqrt(2.5) - std::sqrt(1.346)));
+  ASSERT_EQ(program.call(fmt::format("import {} --unit mm --density \"1000 kg/m3\"", file)), 0);
+  EXPECT_TRUE(has(program.out(), "0.0024 kg of 1000 kg/m3")) << program.out();  // 30 by 10 by 8 mm
 }
 
 TEST(ImportCommand, RefusesAFaultWithItsLineAndElement) {

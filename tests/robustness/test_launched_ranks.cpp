@@ -171,8 +171,17 @@ TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
   EXPECT_EQ(times(output(), "mpirun, " + rank_library()), 1) << output();
 }
 
-/// Rank 0 alone meets the end of the tread: it searches for contact.
-TEST_F(LaunchedRanks, ErrorsInContactEndAllRanks) {
+/// Variables as another launcher sets them: this MPI sees one process.
+TEST_F(LaunchedRanks, AnotherLaunchersProcessesAreRefused) {
+  EXPECT_EQ(call("version", "export PMI_SIZE=2 PMI_RANK=0;"), 2);
+  EXPECT_TRUE(has(errors(), "2 processes were started together, but the MPI of this program")) << errors();
+  EXPECT_TRUE(has(errors(), "inherited the variable: unset PMI_SIZE")) << errors();
+  EXPECT_EQ(call("version", "export PMI_SIZE=1 PMI_RANK=0;"), 0) << errors();
+  EXPECT_EQ(call_on(1, "version"), 0) << errors();
+}
+
+/// All ranks know where the wheel is.
+TEST_F(LaunchedRanks, TheEndOfTheTreadEndsAllRanks) {
   const std::string spins =
       "--set \"scene.element_size=16 mm\" --set wheel.bore=guided --set \"wheel.overhang=22 mm\" "
       "--set \"scene.gravity=0 m/s2\" --set \"motion.duration=1.5 ms\" "
@@ -181,6 +190,21 @@ TEST_F(LaunchedRanks, ErrorsInContactEndAllRanks) {
   const std::string histories = content_of(root_ / "alone" / "histories.csv");
   EXPECT_EQ(call_on(2, run(folder_, spins)), 3) << errors();
   EXPECT_EQ(times(errors(), "rolls beyond its tread; lengthen wheel.overhang"), 1) << errors();
+  EXPECT_GT(times(histories, "\n"), 50);
+  EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
+}
+
+/// Rank 0 alone has the points of the patch. A worn rail under a narrow wheel: the wheel's edges touch it.
+TEST_F(LaunchedRanks, AnErrorThatRank0AloneMeetsEndsAllRanks) {
+  const std::string worn =
+      "--set \"scene.element_size=10 mm\" --set \"wheel.width=30 mm\" --set output.frames=0 "
+      "--set surface.worn.kind=dent --set \"surface.worn.depth=1 mm\" --set \"surface.worn.length=80 mm\" "
+      "--set \"surface.worn.width=60 mm\" --set \"surface.worn.at=0.06 m\" "
+      "--set \"motion.duration=1.5 ms\"";
+  EXPECT_EQ(call(run(root_ / "worn", worn)), 3) << errors();
+  const std::string histories = content_of(root_ / "worn" / "histories.csv");
+  EXPECT_EQ(call_on(2, run(folder_, worn)), 3) << errors();
+  EXPECT_EQ(times(errors(), "the end of the surface that is searched"), 1) << errors();
   EXPECT_GT(times(histories, "\n"), 50);
   EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
 }

@@ -182,6 +182,26 @@ TEST_F(Descriptors, ABoundOnTheSizeOfFilesIsAnError) {
   EXPECT_EQ(shell("ulimit -f 0", "version >out"), 4);
 }
 
+TEST_F(Descriptors, SamplesThatAreKeptAreThoseInTheFiles) {
+  std::string arguments = fmt::format(
+      "run {} -o run -t 1 --quiet --set output.frames=0 --set output.history_interval=0.1us --set "
+      "motion.duration=0.95ms --set material.steel.poissons_ratio=0.3",
+      scene("bar-wave.toml"));
+  for (const char* name :
+       {"a", "b", "c", "d"})  // text takes more than binary numbers: the table is full first
+    arguments += fmt::format(
+        " --set probe.{0}.x=0.43m --set probe.{0}.y=2mm --set probe.{0}.depth=3mm --set "
+        "probe.{0}.quantity=all",
+        name);
+  EXPECT_EQ(shell("ulimit -f 1580", arguments), 4);
+  const std::string table = content("run/histories.csv");
+  const auto rows = std::count(table.begin(), table.end(), '\n') - 1;
+  EXPECT_GT(rows, 500);
+  EXPECT_TRUE(samples::has(content("errors"), "histories.csv: File too large")) << content("errors");
+  EXPECT_TRUE(samples::has(content("errors"), fmt::format("; {} samples are kept in run;", rows)))
+      << content("errors");
+}
+
 TEST_F(Descriptors, LongTextIntoAFullOutputIsNamedLikeShortText) {
   for (const char* command : {"version", "scene-reference", "scene-reference --json", "verify --list"})
     for (const char* output : {">/dev/full", ">&-"}) {

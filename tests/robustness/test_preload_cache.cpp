@@ -222,10 +222,35 @@ TEST_F(PreloadCache, IsShownAndCleared) {
   EXPECT_TRUE(has(output(), fmt::format("{}/tread: 1 preloads, ", cache_.string())) &&
               has(output(), "4.00 GB"))
       << output();
+  EXPECT_TRUE(has(output(), "  used ") && has(output(), " ago\n")) << output();
+  const fs::path entry = ContentCache(cache_ / "tread", 0).entries().front().path;
+  fs::last_write_time(entry, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_EQ(call("cache show", at), 0);
+  EXPECT_TRUE(has(output(), "used when the clock was ahead\n")) << output();
+  EXPECT_EQ(call("cache show --json", at), 0);
+  EXPECT_TRUE(has(output(), "\"unused_s\": null")) << output();
   EXPECT_EQ(call("cache clear", at), 0);
   EXPECT_TRUE(has(output(), "0 preloads, 0 B")) << output();
   EXPECT_EQ(call("cache show --cache off"), 0);
   EXPECT_TRUE(has(output(), "is off")) << output();
+}
+
+TEST(ContentCache, UsesToComeAreTheOldest) {
+  const samples::TemporaryFolder temporary;
+  const SealedContent content = {{"values", std::vector<double>(1000, 1.5)}};
+  const ContentCache unbounded(temporary.path, 1 << 30);
+  for (const char* key : {"a", "b"}) unbounded.store(key, content);
+  for (const ContentCache::Entry& entry : unbounded.entries())
+    fs::last_write_time(entry.path, entry.used + std::chrono::hours(1));
+  const std::int64_t bytes = unbounded.entries().front().bytes;
+  const ContentCache bounded(temporary.path, 2 * bytes + bytes / 2);
+  std::string refused;
+  for (const char* key : {"c", "d", "e"}) {
+    bounded.store(key, content);
+    EXPECT_EQ(bounded.entries().size(), 2U);
+    EXPECT_TRUE(bounded.find(key, refused)) << key;
+  }
+  EXPECT_TRUE(bounded.find("d", refused));
 }
 
 TEST(ContentCache, RemovesWhatHasNotBeenUsedForLongest) {

@@ -133,6 +133,17 @@ TEST_F(ResultsCommand, AnUnfinishedRunNamesTheWayOn) {
   EXPECT_TRUE(has(file_in(all, "checkpoint/")["content"], "states for `tread resume`"));
 }
 
+TEST_F(ResultsCommand, ARunThatIsKilledBehindItsResultsIsDone) {
+  fs::copy(folder("run"), folder("killed"), fs::copy_options::recursive);
+  const fs::path status = folder("killed") / "status.json";
+  std::ofstream(status) << R"({"stage": "rolling", "command": "run", "time_s": 0.004, "duration_s": 0.004})";
+  const json all = listing("killed");
+  EXPECT_EQ(all["state"], "done");
+  EXPECT_EQ(all["complete"], true);
+  EXPECT_EQ(call("resume " + folder("killed").string()), 0) << errors();
+  EXPECT_EQ(json::parse(content_of(status))["stage"], "done");
+}
+
 TEST_F(ResultsCommand, AFileThatCannotBeReadCostsItsDatasetsAlone) {
   fs::create_directory(folder("broken"));
   for (const char* name : {"run.h5", "summary.json", "status.json", "patch.h5"})

@@ -404,12 +404,20 @@ TEST(RunSessions, ASignalBeforeTheFirstStepNamesTheWayOn) {
   EXPECT_TRUE(has(signal_early(), sentence + " goes on from the last checkpoint")) << content_of(said);
   options.overrides = {"stop.steps=9"};
   EXPECT_TRUE(has(signal_early(), "the same command goes on")) << content_of(said);
+  options.overrides.clear();
+  options.overwrite = true;  // what it throws away may still be there
+  EXPECT_TRUE(has(signal_early(), "the same command starts again")) << content_of(said);
 }
 
 TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
   EXPECT_EQ(call(run(folder_, "--set \"stop.penetration=0.1 um\"")), 3);
   EXPECT_TRUE(has(errors(), "stop.penetration = 0.1 um") && has(errors(), "the last checkpoint is that of"))
       << errors();
+  const std::size_t begin = errors().find("stopped at"), end = errors().find(", which ends each");
+  ASSERT_LT(begin, end);
+  const std::string stop = errors().substr(begin, end - begin);
+  EXPECT_EQ(call(resume()), 3);  // at once: its last sample is beyond the limit
+  EXPECT_TRUE(has(errors(), stop) && has(errors(), "--set stop.penetration states more")) << errors();
   EXPECT_EQ(call(resume("--set \"stop.penetration=1 mm\" --set \"stop.wall_time=10 us\"")), 75);
   EXPECT_TRUE(has(errors(), "stop.wall_time")) << errors();
   EXPECT_EQ(call(resume("--set \"stop.wall_time=1 h\" --set \"output.disk_limit=1 kB\" --set "

@@ -502,6 +502,11 @@ TEST(SceneErrors, Overrides) {
             "mm/s, km/h)");
   expect_part(error_of(kBase, {"motion.speed"}), "--set: \"motion.speed\" is not of the form key=value");
   expect_part(error_of(kBase, {"=3"}), "is not of the form key=value");
+  for (const char* typed : {"scene.title=caf\xE9 3", "scene.title=\"caf\xE9 3\""})
+    expect_part(error_of(kBase, {typed}), "caf? 3");
+  expect_part(error_of(kBase, {"rail.profile=\xFF.txt"}),
+              "--set: rail.profile: \"rail.profile=?.txt\" has bytes that are not UTF-8");
+  EXPECT_EQ(error_of(kBase, {"scene.title=caf\xC3\xA9"}), "accepted");
   EXPECT_EQ(error_of(kBase, {"motion.duration=1 s"}).substr(0, 24), "--set: motion.duration: ");
   expect_part(error_of(kBase, {"motion.traction={mu=0.3, rmp=1}"}),
               "--set: motion.traction.rmp: unknown key");
@@ -851,6 +856,32 @@ TEST_F(Files, ProfilesAreInMillimetresUnlessTheySayOtherwise) {
             (std::vector<double>{2e-3, -3e-3}));
   EXPECT_EQ(read_two_columns(write("b.txt", "y [m], z [cm]\n1,2\n0,3\n"), {}).second,
             (std::vector<double>{2e-2, 3e-2}));
+}
+
+/// Brackets of comments hold no units; those behind the columns' units say nothing.
+TEST_F(Files, BracketsOfComments) {
+  const TableRules depths{.needs_units = true, .increasing = true, .names = kDepthNames};
+  const std::string comment = "# Rail [60E1], measured [2019-03-01], by [X]\n";
+  const auto second = [&](const std::string& text, const TableRules& rules) {
+    return read_two_columns(write("c.txt", text + "1 2\n2 3\n"), rules).second;
+  };
+  EXPECT_EQ(second(comment + "# x [m]  d [um]\n", depths), (std::vector<double>{2e-6, 3e-6}));
+  EXPECT_EQ(second("# Rail [60E1], measured [2019-03-01]\n", {}), (std::vector<double>{2e-3, 3e-3}));
+  EXPECT_EQ(second("# y [m]  z [m]  source [EN 13674]\n", {}), (std::vector<double>{2, 3}));
+  expect_part(table_error(write("d.txt", comment + "1 2\n2 3\n"), depths), ":2: the units are missing");
+  expect_part(table_error(write("d.txt", "# x [inch]  d [inch]\n1 2\n2 3\n"), depths),
+              ":1: unknown unit \"inch\"");
+  const std::string inches = "# way [inch]  wear [inch]\n";
+  expect_part(table_error(write("d.txt", inches + "1 2\n2 3\n"), depths),
+              "before the numbers; [inch], [inch] on line 1 are no units");
+  expect_part(table_error(write("d.txt", inches + "1 2\n2 3\n"), {}), ":1: unknown unit \"inch\"");
+  EXPECT_EQ(second(inches + "# x [m]  d [um]\n", depths), (std::vector<double>{2e-6, 3e-6}));
+  EXPECT_EQ(second("# y [m]  z [m]\n# By [Smith], for [Miller]\n", {}), (std::vector<double>{2, 3}));
+  EXPECT_EQ(second("# measured by [Smith], for [Miller]\n", {}), (std::vector<double>{2e-3, 3e-3}));
+  EXPECT_EQ(table_error(write("d.txt", "# z [mm]  y [mm]  x [mm]\n1 2\n"), {.names = {{"y"}, {"z"}}}),
+            (folder_ / "d.txt").string() +
+                ":1: the columns are named z, y; expected y, z in this order: move the columns, and their "
+                "names");
 }
 
 TEST(SceneErrors, ProblemsCanBeReadOneByOne) {

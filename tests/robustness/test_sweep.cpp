@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "drivers/process/host.hpp"
@@ -106,6 +108,8 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
   EXPECT_TRUE(has(errors(), "a card takes one run at a time, and there is one")) << errors();
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"pulse.velocity=2 m/s\""), 2);
   EXPECT_TRUE(has(errors(), "differ in pulse.velocity")) << errors();
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"scene.title=\xFF\""), 2);
+  EXPECT_TRUE(has(errors(), "tread: --set: scene.title: \"scene.title=?\" has bytes")) << errors();
   EXPECT_FALSE(fs::exists(runs_ / "velocity=1m_s"));
 }
 
@@ -177,7 +181,7 @@ TEST_F(Sweep, JobArrayStartsByTheLauncherOnOtherMachines) {
   EXPECT_FALSE(has(errors(), "warning")) << errors();
   const std::string text = content_of(script);
   EXPECT_TRUE(has(text, "tread=( no-such-program -N 1 ")) << text;
-  EXPECT_TRUE(has(text, "place=( -t 1000 )")) << text;
+  EXPECT_TRUE(has(text, "place=( -t 1000 ) changed=( )")) << text;
   EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
   ASSERT_EQ(sweep(file, more + "--jobs 1"), 0) << errors();
   EXPECT_TRUE(has(content_of(script), "#SBATCH --array=0-1%1\n")) << content_of(script);
@@ -237,10 +241,17 @@ TEST_F(Sweep, JobArrayNotesFailures) {
   const JsonRecord failure = read_json(runs_ / "ends/failed.json");
   EXPECT_EQ(number_in(failure, "exit"), 4);
   EXPECT_EQ(truth_in(failure, "anew"), false);
+  EXPECT_TRUE(has(content_of(script), "mv \"$folder/failed.json.part\" \"$folder/failed.json\"\n"));
   EXPECT_EQ(sweep(file), 4) << errors();
   EXPECT_FALSE(has(errors(), "[ends]")) << errors();
   EXPECT_TRUE(has(errors(), "ends: exit 4: see the output of job 7, element 0")) << errors();
   EXPECT_EQ(number_in(status(), "done"), 1);
+  // Another array goes on without the limit.
+  std::string free = content_of(file);
+  free.erase(free.find("stop.steps = 3\n"), std::strlen("stop.steps = 3\n"));
+  std::ofstream(file) << free;
+  ASSERT_EQ(sweep(file, "--retry --slurm=" + script.string()), 0) << errors();
+  EXPECT_EQ(samples::wait_for(start_element(script, 0)), 0) << log();
 }
 
 TEST_F(Sweep, ListsCostWithoutRunning) {
@@ -275,6 +286,47 @@ TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {
   const RunFolder taken(runs_ / "whole");
   EXPECT_EQ(sweep(file), 4);
   EXPECT_TRUE(has(errors(), "\n1 of 2 points are not done\n")) << errors();
+}
+
+/// A limit that a study states no more does not end its runs again.
+TEST_F(Sweep, LimitsAreThoseOfTheStudyWhenAPointGoesOn) {
+  const auto limited = [&](const std::string& limit) {
+    return bars("[[point]]\nname = \"a\"\npulse.velocity = \"1 m/s\"\n" + limit);
+  };
+  EXPECT_EQ(sweep(limited("stop.steps = 3\nstop.wall_time = \"1 h\"\noutput.disk_limit = \"1 GB\"\n")), 4)
+      << errors();
+  EXPECT_EQ(sweep(limited(""), "--retry"), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[a] goes on")) << errors();
+}
+
+/// As on a full disk: the end of one point cannot be written.
+TEST_F(Sweep, AFailureWithoutASoundRecordLeavesTheRest) {
+  const fs::path file = bars(
+      "[[point]]\nname = \"ends\"\nstop.steps = 3\npulse.velocity = \"1 m/s\"\n[[point]]\nname = "
+      "\"whole\"\npulse.velocity = \"2 m/s\"\n");
+  fs::create_directories(runs_ / "ends/failed.json.part/full");
+  EXPECT_EQ(sweep(file, "--jobs 1"), 4) << errors();
+  EXPECT_TRUE(has(errors(), "ends: exit 4: stopped at")) << errors();
+  EXPECT_TRUE(has(errors(), "failed.json: Is a directory")) << errors();
+  for (const char* name : {"whole/report.html", "report.html"}) EXPECT_TRUE(fs::exists(runs_ / name)) << name;
+  EXPECT_FALSE(fs::exists(runs_ / "ends/failed.json"));
+
+  fs::remove_all(runs_ / "ends/failed.json.part");
+  program_.write("runs/ends/failed.json", "{\"exit\": ");
+  EXPECT_EQ(sweep(file), 4) << errors();
+  EXPECT_TRUE(has(errors(), "ends: its failed.json does not read")) << errors();
+  EXPECT_EQ(sweep(file, "--retry"), 4) << errors();
+  EXPECT_TRUE(has(errors(), "[ends] goes on")) << errors();
+  EXPECT_EQ(number_in(read_json(runs_ / "ends/failed.json"), "exit"), 4);
+
+  runs_ = program_.folder / "tyres";
+  fs::create_directories(runs_ / "pressed/failed.json.part/full");
+  EXPECT_EQ(sweep(study("tyre.toml",
+                        "[set]\nscene.element_size = \"8 mm\"\nmotion.duration = \"0.1 ms\"\n[[point]]\n"
+                        "name = \"pressed\"\nstop.penetration = \"1 nm\"\n")),
+            3)
+      << errors();
+  EXPECT_TRUE(has(errors(), "failed.json: Is a directory")) << errors();
 }
 
 TEST_F(Sweep, DamagedResultsOfAPointNameItsFolder) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/text/json.hpp"
 #include "tests/commands_test.hpp"
 
 namespace tread {
@@ -64,6 +65,19 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
   EXPECT_EQ(fitted.code, 0);
   EXPECT_TRUE(has(fitted.out, "C / Hertz")) << fitted.out;
   EXPECT_TRUE(fs::exists(folder_ / "fit" / "calibration.csv"));
+  // On a map it is a dot that lies on the same value.
+  const Outcome dotted = call(
+      fmt::format("multibody {0}/scene.resolved.toml -t 1 --quiet --modes 40 --step \"20 us\" --dots {0} "
+                  "--map speed=300:300:100km/h wavelength=80:80:10mm --json -o {0}/dotted",
+                  folder_.string()));
+  EXPECT_EQ(dotted.code, 0);
+  const Json map = Json::parse(dotted.out)["map"];
+  ASSERT_EQ(map["dots"].size(), 1U);
+  EXPECT_NEAR(map["dots"][0]["speed_m_per_s"].get<double>(), 300 / 3.6, 1e-3);
+  EXPECT_EQ(map["dots"][0]["wavelength_m"], 0.08);
+  EXPECT_NEAR(map["dots"][0]["max_over_static"].get<double>(),
+              map["largest"]["max_over_static"].get<double>(), 1e-3);
+  EXPECT_TRUE(has(content("dotted/report.html"), "Dots: transient runs"));
   // A fastening has several spring-dampers.
   const Outcome apart = call(fmt::format(
       "multibody {0}/scene.resolved.toml -t 1 --quiet --modes 40 --step \"20 us\" --calibrate {0} "

@@ -12,7 +12,9 @@
 #include "drivers/bench/rolling_scene.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/scene_content.hpp"
+#include "drivers/studies/import/import_study.hpp"
 #include "drivers/studies/multibody/multibody_model.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/device/device.hpp"
 #include "tests/mesh_files.hpp"
@@ -100,6 +102,19 @@ TEST_F(BodyScene, TakesAPartOfAnotherFormatInItsUnit) {
   const ResolvedScene again = resolve_scene(SceneSource{"again.toml", resolved_toml(scene), "/nowhere"});
   EXPECT_EQ(again.scene.bodies.at("web").mesh->nodes.size(), 27U);
   EXPECT_EQ(again.scene.bodies.at("web").part, "7");
+}
+
+/// The first line of each format says something: nodes, the format, the width of numbers.
+TEST_F(BodyScene, AByteOrderMarkBeforeAMeshIsSkipped) {
+  std::vector<samples::MeshFile> meshes = samples::files();
+  meshes.push_back({"node.inp", samples::abaqus_file()});
+  meshes.back().text.erase(0, meshes.back().text.find("*Node"));
+  for (const samples::MeshFile& mesh : meshes) {
+    write(mesh.name, "\xEF\xBB\xBF" + mesh.text);
+    EXPECT_EQ(read_mesh_text(folder_.path / mesh.name), mesh.text) << mesh.name;
+    const ImportedMesh imported = read_mesh_file(folder_.path / mesh.name, {1e-3, {}, 1});
+    EXPECT_EQ(imported.mesh.elements.size(), 12U) << mesh.name;
+  }
 }
 
 TEST_F(BodyScene, ContentsOfTheFileTellScenesApart) {

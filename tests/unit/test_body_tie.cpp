@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -131,6 +132,44 @@ TEST(BodyTie, IsRefusedWithThePlaceAndTheWayOut) {
   EXPECT_NE(refusal(block_on_body(12, 5, 0), other).find("its faces cover 60.0 %"), std::string::npos)
       << refusal(block_on_body(12, 5, 0), other);
   EXPECT_EQ(refusal(block_on_body(12, 5, 0.003), spec), "");
+}
+
+/// A ring of 40 elements around, and a shorter one of hexahedra on it.
+Mesh ring_on_ring(int elements) {
+  const auto ring = [](const std::string& name, double width, double inner, double outer, int around) {
+    return make_swept_block(name, Sweep::revolved, rectangle(0, width, 2, inner, outer, 1),
+                            {samples::steel()}, 0.1, {{around, 2 * std::numbers::pi / around, 0}});
+  };
+  Mesh mesh;
+  mesh.add(ring("axle", 0.1, 0.08, 0.1, 40));
+  const SweptBlock outer = ring("disc", 0.06, 0.1, 0.12, elements);
+  HexBody body;
+  body.name = "disc";
+  body.mesh = hexahedra_of(outer);
+  body.materials = outer.materials;
+  for (std::size_t node = 0; node < body.mesh.nodes.size(); ++node) {
+    const Vec3& at = body.mesh.nodes[node];
+    if (std::hypot(at.x, at.z) > 0.11) continue;
+    const auto number = static_cast<std::int32_t>(node);
+    body.mesh.node_sets["bore"].push_back(number);
+    if (at.x > 0 && at.z > 0) body.mesh.node_sets["quarter"].push_back(number);
+    if (at.x < 0) body.mesh.node_sets["half"].push_back(number);
+  }
+  mesh.add(std::move(body));
+  return mesh;
+}
+
+TEST(BodyTie, MustGoAroundAnAxleThatItMayCoverInPart) {
+  for (const int elements : {40, 64}) {
+    const Mesh mesh = ring_on_ring(elements);
+    EXPECT_EQ(refusal(mesh, {0, "bore", "body.x.axle", 0, "top", false}), "") << elements;
+    for (const char* set : {"quarter", "half"}) {
+      const std::string text = refusal(mesh, {0, set, "body.x.axle", 0, "top", false});
+      EXPECT_EQ(text.find(std::string("body.x.axle = \"") + set + "\": its faces go "), 0U) << text;
+      EXPECT_NE(text.find(" % of the way around the axle, at least 95 % are needed"), std::string::npos)
+          << text;
+    }
+  }
 }
 
 /// A layer of 2 mm, whose upper nodes would move down by 3 mm.

@@ -113,11 +113,11 @@ TEST(MeanAbout, IsExactForAPolygon) {
 
 TEST(ForceCurves, AreReadOverWayAndTime) {
   const samples::TemporaryFolder folder;
-  const ForceCurve way = read_force_curve(written(folder, "# x [mm]  F_N [kN]\n1 80\n2, 90\n"), "1 m");
+  const ForceCurve way = read_force_curve(written(folder, "# x [mm]  F_N [kN]\n1 80\n2, 90\n"), "F_N", "1 m");
   EXPECT_FALSE(way.over_time);
   EXPECT_DOUBLE_EQ(way.at[1], 1.002);
   EXPECT_DOUBLE_EQ(way.force[1], 90e3);
-  const ForceCurve time = read_force_curve(written(folder, "# t [ms]  F_N [N]\n1 80\n2 90\n"), "");
+  const ForceCurve time = read_force_curve(written(folder, "# t [ms]  F_N [N]\n1 80\n2 90\n"), "F_N", "");
   EXPECT_TRUE(time.over_time);
   EXPECT_DOUBLE_EQ(time.at[0], 1e-3);
   EXPECT_DOUBLE_EQ(time.force[0], 80);
@@ -125,9 +125,9 @@ TEST(ForceCurves, AreReadOverWayAndTime) {
 
 TEST(ForceCurves, NeedUnitsOfAWayAndAForce) {
   const samples::TemporaryFolder folder;
-  const auto message = [&](const std::string& text) {
+  const auto message = [&](const std::string& text, const std::string& force = "F_N") {
     try {
-      read_force_curve(written(folder, text), "");
+      read_force_curve(written(folder, text), force, "");
     } catch (const ProblemsError& error) {
       return error.problems.at(0).message;
     }
@@ -137,6 +137,13 @@ TEST(ForceCurves, NeedUnitsOfAWayAndAForce) {
   EXPECT_NE(message("# x [m] F [mm]\n1 2\n3 4\n").find("[mm] is not a force"), std::string::npos);
   EXPECT_NE(message("# x [kg] F [N]\n1 2\n3 4\n").find("or a time"), std::string::npos);
   EXPECT_NE(message("# x [m] F [N]\n1 2\n1 4\n").find("must grow"), std::string::npos);
+  for (const std::string& force : {std::string("F_N"), std::string("F_L")}) {
+    EXPECT_EQ(message("# x [m] " + force + " [N]\n1 2\n3 4\n", force), "");
+    EXPECT_EQ(message("# x [m] pull [N]\n1 2\n3 4\n", force), "");
+  }
+  EXPECT_NE(message("# x [m] F_N [N]\n1 2\n3 4\n", "F_L").find("named x, F_N; expected x, f_l"),
+            std::string::npos);
+  EXPECT_NE(message("# x [m] F_L [N]\n1 2\n3 4\n").find("named x, F_L; expected x, f_n"), std::string::npos);
 }
 
 }  // namespace

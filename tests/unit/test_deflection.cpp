@@ -40,7 +40,7 @@ TEST(Deflection, IsReadAboutTheWheel) {
       }
   };
   press(0, 1);
-  line.note_static(u.data());
+  line.note_static(line.rise(u.data()));
   press(0.4, 0.7);
   line.note_rolling(u.data(), 0.4);
 
@@ -53,6 +53,19 @@ TEST(Deflection, IsReadAboutTheWheel) {
   }
   EXPECT_LT(Deflection::asymmetry(d.at_rest), 1e-6);
   EXPECT_GT(Deflection::asymmetry(d.rolling), 0.1);
+}
+
+/// A start under traction has another static state.
+TEST(Deflection, IsStaticWithoutTraction) {
+  const auto at_rest = [](std::vector<std::string> overrides) {
+    overrides.emplace_back("scene.element_size=12 mm");
+    Model model(samples::tyre_scene(overrides));
+    const Preload preload = solve_preload(model, steady_motion(model), [](const std::string& /*text*/) {});
+    return Simulation(model, preload, 1e-7).rail_line()->at_rest();
+  };
+  const std::vector<double> free = at_rest({});
+  EXPECT_LT(*std::min_element(free.begin(), free.end()), -1e-6);
+  EXPECT_EQ(at_rest({"motion.traction.mu=0.3", "motion.traction.ramp=0 ms"}), free);
 }
 
 /// The zone's middle lies at x = -35 mm; the wheel starts at x = 0.

@@ -205,6 +205,22 @@ TEST(DialTable, TheMeasuredTableHasItsReference) {
   EXPECT_NE(cheapest(measured, "pressure", 0.05, DialCost::element_steps), nullptr);
 }
 
+/// 40 mm, which the user has not stated, do not fit into the block.
+TEST(DialAdvice, ASettingThatNoMeshTakesHasNoCost) {
+  const samples::Program program;
+  DialTable one = table();
+  one.rows.front().settings = {"scene.element_size=40 mm"};
+  const AdviceOptions options{"25%", "F_N", program.write("dial.jsonl", dial_lines(one)), "minutes"};
+  const std::optional<Advice> advice =
+      advise(resolve_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml"), options);
+  ASSERT_TRUE(advice && advice->row);
+  EXPECT_EQ(advice->row->point, "8mm");
+  EXPECT_FALSE(advice->cost);
+  const std::string text = advice_text(*advice);
+  EXPECT_TRUE(samples::has(text, "--set \"scene.element_size=40 mm\"")) << text;
+  EXPECT_TRUE(samples::has(text, "this scene with it: --set: scene.element_size = 40 mm: ")) << text;
+}
+
 TEST(DialReport, EveryQuantityHasAPanel) {
   const Scatter picture = dial_picture(table(), DialCost::minutes);
   EXPECT_EQ(picture.panels.size(), dial_quantities().size() + 1);

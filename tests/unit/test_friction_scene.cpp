@@ -44,6 +44,7 @@ TEST(FrictionScene, CoulombIsTheDefault) {
   const Scene scene = samples::tyre_scene();
   EXPECT_EQ(scene.contact->friction_law, "coulomb");
   EXPECT_EQ(scene.contact->largest_friction(), 0.5);
+  EXPECT_EQ(scene.contact->least_friction(), 0.5);
 }
 
 TEST(FrictionScene, ATableIsReadInItsUnits) {
@@ -54,6 +55,7 @@ TEST(FrictionScene, ATableIsReadInItsUnits) {
   EXPECT_EQ(scene.contact->friction_at_x, (std::vector<double>{0.4, 0.1}));
   EXPECT_EQ(scene.contact->friction_start, 0.02);
   EXPECT_EQ(scene.contact->largest_friction(), 0.4);
+  EXPECT_EQ(scene.contact->least_friction(), 0.1);
 }
 
 TEST(FrictionScene, APathBehindALinkLeadsWhereTheFileSystemLeads) {

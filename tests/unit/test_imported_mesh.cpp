@@ -116,6 +116,21 @@ TEST(ImportedMesh, ReadsNumbersInTenCharacters) {
   EXPECT_EQ(mesh.element_number.front(), 1'000'000'011);
 }
 
+TEST(ImportedMesh, ReadsSegmentsWithAttributes) {
+  for (const bool commas : {false, true}) {
+    std::string text = keyword_file(SolidCards::one);
+    text.insert(text.find("*DATABASE"), "*SET_SEGMENT\n         2       0.0\n");
+    for (const int node : {101, 105, 106, 102, -1, -1, -1, -1}) {
+      const std::string field = node > 0 ? std::to_string(node) : "0.5";
+      text.insert(text.find("*DATABASE"), commas ? field + "," : fmt::format("{:>10}", field));
+    }
+    text.insert(text.find("*DATABASE"), "\n");
+    const HexMesh mesh = sound({"a.k", text}).mesh;
+    EXPECT_EQ(numbers(mesh.node_number, mesh.node_sets.at("segments 2")),
+              (std::vector<std::int64_t>{101, 102, 105, 106}));
+  }
+}
+
 TEST(HexShape, IsThatOfTheElement) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shift(-0.25, 0.25);

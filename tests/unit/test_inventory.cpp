@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
 #include <set>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/process/machine.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/memory_need.hpp"
@@ -286,6 +291,60 @@ TEST(Memory, ARunNeedsMoreThanTheLeast) {
   const std::int64_t least = least_bytes({model.elements(), model.nodes()});
   EXPECT_LT(least, peak_bytes(model, 0));
   EXPECT_GT(least, peak_bytes(model, 0) / 8);
+}
+
+/// Ranks of one machine.
+class RanksOfAMachine final : public Ranks {
+ public:
+  RanksOfAMachine(int rank, int count) : rank_(rank), count_(count) {}
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+  void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
+  void post(std::span<const RankSegment> /*sent*/) override {}
+  void receive(std::span<const RankSegment> /*received*/) override {}
+  void broadcast(std::span<std::byte> /*bytes*/) override {}
+  [[noreturn]] void end_all(int code) override { std::exit(code); }
+
+ private:
+  void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
+  int rank_, count_;
+};
+
+/// What is said where a mesh of so many nodes is refused; empty: it is not.
+template <class Require>
+std::string refusal(const Require& require, double nodes) {
+  try {
+    require(MeshCount{1000, static_cast<std::int64_t>(nodes)}, MeshSizes{});
+  } catch (const ResourceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Rank 0 alone solves the preload; each rank has all masses.
+TEST(Memory, RanksShareAMachine) {
+  const double most = static_cast<double>(machine_memory()) / static_cast<double>(least_bytes({0, 1}));
+  const auto on_ranks = [](int rank, int count, double nodes) {
+    choose_ranks(std::make_shared<RanksOfAMachine>(rank, count));
+    const std::string said = refusal(require_memory, nodes);
+    choose_ranks(nullptr);
+    return said;
+  };
+  EXPECT_EQ(refusal(require_memory, 0.9 * most), "");
+  EXPECT_NE(refusal(require_memory, 1.1 * most), "");
+  EXPECT_EQ(on_ranks(0, 8, 0.9 * most), "");
+  EXPECT_NE(on_ranks(0, 8, 1.1 * most), "");
+  EXPECT_EQ(on_ranks(1, 8, 1.1 * most), "");  // on a machine without rank 0
+  const std::string many = on_ranks(0, 100, 0.9 * most);
+  EXPECT_NE(many.find("on 100 ranks; this machine has"), std::string::npos) << many;
+  EXPECT_NE(many.find("or start fewer ranks"), std::string::npos) << many;
+}
+
+TEST(Memory, AMeshAloneNeedsItsMasses) {
+  const double most = static_cast<double>(machine_memory()) / static_cast<double>(mass_bytes({0, 1}));
+  EXPECT_LT(mass_bytes({0, 1}), least_bytes({0, 1}));
+  EXPECT_EQ(refusal(require_memory_of_mesh, 0.9 * most), "");
+  EXPECT_NE(refusal(require_memory_of_mesh, 1.1 * most), "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 
 #include "core/error.hpp"
@@ -70,6 +71,38 @@ TEST(March, PartsFitTheMemoryOfATeam) {
     EXPECT_LE(room_bytes(block, true, false), bytes);
     EXPECT_GT(block.parts, unbounded.parts);
   }
+}
+
+/// All stretches of open blocks and of full turns, whose last run may be short.
+TEST(March, RunsNearAStretchAreThoseOfItsTilesAndTheirNeighbours) {
+  for (const int run_tiles : {1, 2, 3, 4})
+    for (const int tiles : {3, 5, 6, 7, 9})
+      for (const bool closed : {false, true}) {
+        const auto device = emulated_device({.cut = {64, 20, run_tiles}});
+        Mesh mesh;
+        mesh.add(closed ? samples::revolved_closed(kLanes * tiles)
+                        : make_swept_block("bar", Sweep::extruded, samples::grid_section({}),
+                                           samples::materials(), 0, {{kLanes * (tiles - 1), 0.01, 0}}));
+        ASSERT_EQ(std::ssize(mesh.blocks.front().tiles), tiles);
+        const InternalForce internal(mesh);
+        const BlockMarch<double> march(*device, internal.elements(0), 0, {});
+        const int runs = (tiles + run_tiles - 1) / run_tiles;
+        for (int first = 0; first < tiles; ++first)
+          for (int count = 1; count <= (closed ? tiles : tiles - first); ++count) {
+            std::set<int> expected;
+            for (int tile = first - 1; tile <= first + count; ++tile)
+              if (closed || (tile >= 0 && tile < tiles)) expected.insert((tile + tiles) % tiles / run_tiles);
+            const MarchRuns near = march.near({first, count});
+            std::set<int> found;
+            for (int i = 0; i < near.count; ++i) found.insert((near.first + i) % runs);
+            EXPECT_LE(near.count, runs);
+            if (count + 2 < tiles) {
+              EXPECT_EQ(found, expected) << first << " + " << count << " of " << tiles << " by " << run_tiles;
+            } else {
+              EXPECT_EQ(near.count, runs);
+            }
+          }
+      }
 }
 
 /// Places in fields have 32 bits on a device.

@@ -7,12 +7,14 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/results/measured_rows.hpp"
+#include "tests/swept_samples.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -61,6 +63,22 @@ TEST(Measurements, ProbeOnTheRailSinksUnderTheWheel) {
   EXPECT_GT(rolled.value("ahead_displacement_z"), -5e-6);
 }
 
+/// Circles of 0.3 m across touch where both lean by the offset over the sum of their radii: the wheel beside
+/// the rail's middle is pushed away from it. Its axis is across, so that the lean is spin.
+TEST(Measurements, AWheelBesideTheMiddleIsPushedAsideAndSpins) {
+  const double lean = 8e-3 / (0.3 + 0.3);
+  for (const int side : {1, -1}) {
+    SCOPED_TRACE(side);
+    const Rolled rolled({"wheel.lateral_offset=" + std::to_string(8 * side) + " mm",
+                         "rail.crown_radius=0.3 m", "solution_zone.start=0 mm"});
+    const Sample& sample = rolled.simulation.sample();
+    EXPECT_NEAR(-side * sample.lateral_force, lean * sample.vertical_force,
+                0.1 * lean * sample.vertical_force);
+    EXPECT_NEAR(-side * sample.spin_creepage, lean / 0.43, 0.1 * lean / 0.43);
+    EXPECT_NEAR(sample.lateral_creepage, 0, 1e-6);  // the bore is held across
+  }
+}
+
 TEST(Measurements, StressUnderThePatchIsCompressionNearThePressure) {
   const Rolled rolled(
       with({"probe.under.quantity=stress", "probe.rim.body=wheel", "probe.rim.quantity=stress"}));
@@ -76,6 +94,65 @@ TEST(Measurements, AxleBoxMovesWithTheWheel) {
   EXPECT_NEAR(rolled.value("box_velocity_x"), 300 / 3.6, 0.01);
   EXPECT_NEAR(rolled.value("box_displacement_x"), 20 * 1e-7 * 300 / 3.6, 1e-5);
   EXPECT_LT(rolled.value("box_displacement_z"), -1e-5);
+}
+
+/// The wheel is off the rail, its bore held across, and the step so short that nothing moves.
+TEST(Measurements, ProbesReadALinearFieldExactly) {
+  const Mat3 slope = {{{3e-4, -1e-4, 2e-4}, {4e-4, -2e-4, 1e-4}, {-3e-4, 2e-4, 5e-4}}};
+  const Vec3 shift = {1e-5, 0, 3e-5};
+  const auto field = [&](const Vec3& x) {
+    Vec3 u = shift;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        u[i] += slope[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * x[j];
+    return u;
+  };
+  const Model model(samples::tyre_scene(with({"probe.p.x=33 mm", "probe.p.y=7 mm", "probe.p.depth=17 mm",
+                                              "probe.p.quantity=all", "probe.box.body=axle_box"})));
+  Preload preload;
+  preload.displacement = samples::sample(model.mesh, field);
+  preload.wheel.origin = {4e-3, -5e-3, model.contact->touching_height() + 6e-3};
+  Simulation simulation(model, preload, 1e-13);
+  simulation.step();
+  const MeasuredRows rows(simulation.measurements().channels());
+  const auto value = [&](const std::string& name) {
+    return simulation.measurements().values()[rows.column(name)];
+  };
+  const Vec3 exact = field({33e-3, 7e-3, -17e-3});
+  const Vec3 box = Vec3{4e-3, -5e-3, 6e-3} + shift;  // the journal's middle is the wheel's
+  for (int i = 0; i < 3; ++i) {
+    const std::string axis = std::string("_displacement_") + "xyz"[i];
+    EXPECT_NEAR(value("p" + axis), exact[i], 1e-12) << axis;
+    EXPECT_NEAR(value("box" + axis), box[i], 1e-10) << axis;
+  }
+  const auto engineering = [&](std::size_t i, std::size_t j) { return slope[i][j] + slope[j][i]; };
+  const Material steel = samples::steel();
+  const double pressure = steel.lame_lambda() * (slope[0][0] + slope[1][1] + slope[2][2]);
+  const double g = steel.shear_modulus();
+  const double xx = pressure + g * engineering(0, 0), yy = pressure + g * engineering(1, 1),
+               zz = pressure + g * engineering(2, 2), yz = g * engineering(1, 2), zx = g * engineering(2, 0),
+               xy = g * engineering(0, 1);
+  const double von_mises =
+      std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
+                3 * (yz * yz + zx * zx + xy * xy));
+  const std::vector<std::pair<std::string, double>> stresses = {
+      {"p_stress_xx", xx}, {"p_stress_yy", yy}, {"p_stress_zz", zz},       {"p_stress_yz", yz},
+      {"p_stress_zx", zx}, {"p_stress_xy", xy}, {"p_von_mises", von_mises}};
+  for (const auto& [name, stress] : stresses) EXPECT_NEAR(value(name), stress, 1e-9 * von_mises) << name;
+}
+
+TEST(Measurements, VelocitiesAreRatesOfTheDisplacements) {
+  Rolled rolled(with({"probe.rail.x=20 mm", "probe.rail.y=7 mm", "probe.box.body=axle_box"}), 200);
+  for (const char* probe : {"rail", "box"})
+    for (const char axis : {'x', 'y', 'z'}) {
+      const std::string displacement = std::string(probe) + "_displacement_" + axis;
+      const std::string velocity = std::string(probe) + "_velocity_" + axis;
+      const double before = rolled.value(displacement);
+      rolled.simulation.step();
+      const double rate = (rolled.value(displacement) - before) / rolled.simulation.dt();
+      EXPECT_NEAR(rolled.value(velocity), rate, 1e-4 * std::abs(rate) + 1e-8) << velocity;
+      EXPECT_EQ(std::abs(rate) > 1e-6, velocity != "box_velocity_y") << velocity;  // the bore is held across
+    }
 }
 
 TEST(Measurements, FasteningsCarryTheLoad) {

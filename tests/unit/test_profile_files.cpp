@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -280,7 +281,7 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
        ": \"end\": expected a row of 2 numbers as the first row has"},
       {"a.txt", "0 0\n1 1\n2 x\n", false, "a.txt:3: \"x\" is not a number"},
       {"a.txt", "12.5 abc\n" + r, false, "a.txt:1: \"abc\" is not a number"},
-      {"a.csv", "12;abc\n" + r, false, "a.csv:1: "},
+      {"a.csv", "12;nan\n" + r, false, "a.csv:1: "},
   };
   for (const auto& file : files) {
     SCOPED_TRACE(file.message);
@@ -294,6 +295,25 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
     }
     EXPECT_NE(answer.find(file.message), std::string::npos) << answer;
   }
+}
+
+/// Rows without two numbers are faults behind a header, too; a title may begin with a number.
+TEST(ProfileFiles, BrokenRowsBehindAHeaderAreNoHeader) {
+  const std::string header = "y,z\n60 E1 new\n2024 rail 3\nNancy 5\n-nan-\n12\n45;\n60, worn rail\n1, new\n";
+  const char* broken[] = {"nan,nan", "5,nan", "nan 5", "12;;abc", "5, -inf;", "+3 1e999"};
+  std::string text = header;
+  for (const char* row : broken) text += std::string(row) + "\n";
+  std::vector<LineFault> faults;
+  read_column_profile(text + rows(rail()), faults);
+  ASSERT_EQ(faults.size(), std::size(broken));
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    EXPECT_EQ(faults[i].line, 10 + static_cast<int>(i));
+    EXPECT_EQ(faults[i].message,
+              fmt::format("\"{}\": expected a row of numbers, y and z; a comment begins with #", broken[i]));
+  }
+  faults.clear();
+  EXPECT_EQ(read_column_profile(header + rows(rail()), faults).y.size(), rail().y.size());
+  EXPECT_TRUE(faults.empty());
 }
 
 /// No double holds such a number of rows.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/engine/rank_shares.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -72,6 +73,47 @@ TEST(RankShares, ContactLongerThanAShareLeavesAlmostNoElements) {
   EXPECT_NEAR(evened.shares[0], 0.005, 1e-12);
   EXPECT_NEAR(evened.shares[1], 0.995 / 3, 1e-12);
   EXPECT_NEAR(evened.seconds, 0.905, 1e-12);
+}
+
+/// What such a rank takes for its connectors is no measure of its speed.
+TEST(RankShares, ARankWithoutWorkGetsHardlyAny) {
+  std::vector<double> shares(8, 1.0 / 7), seconds(8, 300e-6);
+  shares.back() = 0;
+  seconds.back() = 5e-6;
+  const TimedShares evened = evened_shares(shares, seconds);
+  EXPECT_NEAR(evened.shares.back(), 0.02 / 8, 1e-12);
+  for (std::size_t rank = 0; rank < 7; ++rank) EXPECT_NEAR(evened.shares[rank], (1 - 0.02 / 8) / 7, 1e-12);
+  EXPECT_NEAR(evened.seconds, (1 - 0.02 / 8) * 300e-6, 1e-12);
+}
+
+TEST(RankShares, RankZeroWithoutElementsHasTheContactAlone) {
+  const TimedShares evened = evened_shares(std::vector{0.0, 0.5, 0.5}, std::vector{0.2, 0.5, 0.5});
+  EXPECT_NEAR(evened.shares[0], (1 - 2 * 0.2) / 3, 1e-12);
+  EXPECT_NEAR(evened.seconds, 0.4, 1e-12);
+}
+
+/// Few pieces cannot be dealt out as wanted.
+TEST(RankShares, DealtSharesAreThoseOfTheCutsPieces) {
+  const Model model(samples::tyre_scene({"scene.element_size=20 mm"}));
+  const std::vector<TileWork> work = tile_work(model, *model.internal);
+  const auto cost_of = [&](const std::vector<TileStretch>& stretches) {
+    double cost = 0;
+    for (const TileStretch& stretch : stretches)
+      for (std::size_t tile = stretch.first; tile < stretch.last; ++tile)
+        cost += static_cast<double>(work[tile].cost);
+    return cost;
+  };
+  const std::vector<double> wanted = {0.1, 0.3, 0.6};
+  const RankCut cut(model, work, wanted);
+  const std::vector<double> dealt = dealt_shares(cut, work);
+  ASSERT_EQ(dealt.size(), 3U);
+  EXPECT_NEAR(sum(dealt), 1, 1e-12);
+  EXPECT_NE(dealt, wanted);
+  const TileStretch all{0, work.size()};
+  for (int rank = 0; rank < 3; ++rank)
+    EXPECT_NEAR(dealt[index(rank)], cost_of(cut.stretches(rank)) / cost_of({all}), 1e-12);
+  const std::vector<double> of_many(work.size(), 1.0 / static_cast<double>(work.size()));
+  EXPECT_TRUE(dealt_shares(RankCut(model, work, of_many), work).empty());
 }
 
 }  // namespace

@@ -149,5 +149,16 @@ TEST(EnergyWarning, IsNotOfAWheelAlone) {
   EXPECT_FALSE(warns({"rail.present=false", "contact.present=false", "load.present=false"}));
 }
 
+TEST(RunInWarning, IsOfAForceThatStillChanges) {
+  RunResults results;
+  const auto warns = [&](double change) {
+    results.preload.run_in_change = change;
+    return any_has(run_warnings(Model(samples::tyre_scene({"scene.element_size=12 mm"})), results),
+                   "F_N still changed by ");
+  };
+  EXPECT_FALSE(warns(5e-3));
+  EXPECT_TRUE(warns(0.05));
+}
+
 }  // namespace
 }  // namespace tread

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/math/spectrum.hpp"
 #include "drivers/engine/model.hpp"
 #include "drivers/report/energy_tables.hpp"
@@ -68,6 +69,120 @@ TEST(Traction, IsSteadyIfItsHalvesAgree) {
   results.traction_coefficient = 0.001;
   results.traction_drift = 0.0049;
   EXPECT_TRUE(traction_is_steady(results));
+  results.driven = true;
+  EXPECT_FALSE(traction_is_steady(results)) << "friction carries nothing of the torque";
+}
+
+constexpr double kWay = 1e-3;         ///< between samples [m]
+constexpr double kApart = kWay / 80;  ///< between samples [s]
+
+/// Sample `i` of a wheel at the place `at`, counted in kWay, that brakes or drives with 16 kN and 10 J.
+Sample sample_at(int i, double at) {
+  Sample sample;
+  sample.time = kApart * i;
+  sample.wheel_x = kWay * at;
+  sample.vertical_force = 80e3;
+  sample.longitudinal_force = 16e3;
+  sample.creepage_mean = 0.002;
+  sample.patch_area = 1e-4;
+  sample.max_pressure = 1e9;
+  sample.energy.frictional_work = 10.0 * i;
+  return sample;
+}
+
+/// Model of the tyre with the solution zone from 0.1 to 0.15 m.
+Model zoned_model(std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.end(),
+                   {"scene.element_size=12 mm", "solution_zone.start=100 mm", "solution_zone.length=50 mm"});
+  return Model(samples::tyre_scene(overrides));
+}
+
+TEST(Evaluate, FillsTheFiguresFromTheSamples) {
+  const Model model = zoned_model({"motion.traction.torque=6.9 kN m"});
+  RunResults r;
+  r.dt = 1e-6;
+  r.preload.contact.force_on_rail.z = -80e3;
+  for (int i = 0; i <= 200; ++i) r.samples.push_back(sample_at(i, i));
+  r.samples[20].energy.frictional_work -= 13;
+  r.samples[120].vertical_force = 100e3;
+  r.samples[130].vertical_force = 70e3;
+  r.samples[140].creepage_mean = -0.005;
+  r.samples[180].creepage_mean = -0.01;  // beyond
+  for (std::size_t i = 126; i <= 200; ++i) r.samples[i].slip_area = r.samples[i].patch_area;
+  evaluate(model, r);
+  EXPECT_TRUE(r.driven);
+  EXPECT_NEAR(r.reached, 0.2, 1e-12);
+  EXPECT_NEAR(r.evaluated_first, 0.1, 1e-12);
+  EXPECT_NEAR(r.evaluated_last, 0.15, 1e-12);
+  EXPECT_EQ(r.evaluated_samples, 51);
+  EXPECT_EQ(r.vertical_force.min, 70e3);
+  EXPECT_EQ(r.vertical_force.max, 100e3);
+  EXPECT_NEAR(r.dynamic_factor(), 1.25, 1e-12);
+  EXPECT_EQ(r.creepage_max, -0.005);
+  EXPECT_NEAR(r.full_slip_share, 25.0 / 51, 1e-12);
+  EXPECT_NEAR(r.spectrum.spacing, 1 / (51 * kApart), 1e-6);
+  EXPECT_NEAR(r.frictional_work_decrease, 3, 1e-9);
+  EXPECT_NEAR(r.steady_first, 0.05, 1e-12);
+  EXPECT_NEAR(r.steady_last, 0.15, 1e-12);
+  EXPECT_EQ(r.steady_samples, 101);
+  EXPECT_NEAR(r.vertical_force_steady, 80e3 + 10e3 / 101, 1e-6);
+  EXPECT_NEAR(r.traction_coefficient, 16e3 / (80e3 + 10e3 / 101), 1e-12);
+  EXPECT_NEAR(r.creepage, 0.002 - 0.007 / 101, 1e-12);
+  EXPECT_NEAR(r.creepage_of_work.value(), 1000 / (0.1 * 16e3), 1e-9);
+  EXPECT_NEAR(r.steady_slip_share, 25.0 / 101, 1e-12);
+  EXPECT_EQ(r.max_pressure, 1e9);
+}
+
+/// Brakes stop the wheel at x = 0.2 m and drive it back to -0.2 m. The samples of the way back lie between
+/// those of the way ahead.
+TEST(Evaluate, AWheelThatTurnsBackHasPassedTheZone) {
+  const Model model = zoned_model();
+  RunResults r;
+  r.dt = 1e-6;
+  for (int i = 0; i <= 600; ++i) {
+    r.samples.push_back(sample_at(i, i <= 200 ? i - 0.5 : 400 - i));
+    if (i > 200) r.samples.back().longitudinal_force = 8e3;
+  }
+  evaluate(model, r);
+  EXPECT_NEAR(r.reached, 0.1995, 1e-12);
+  EXPECT_EQ(r.evaluated_samples, 50 + 51);
+  EXPECT_EQ(r.steady_samples, 100 + 101);
+  EXPECT_EQ(r.vertical_force.max, 80e3);
+  EXPECT_NEAR(r.creepage_of_work.value(), 1000 / (0.1 * 16e3), 1e-9);
+  EXPECT_NEAR(r.spectrum.spacing, 1 / (50 * kApart), 1e-6) << "the first passage alone";
+}
+
+TEST(Evaluate, AWheelThatStandsCountsAsAWhole) {
+  const Model model =
+      zoned_model({"motion.speed=0 m/s", "motion.traction.torque=1 N m", "motion.traction.ramp=0 ms"});
+  RunResults r;
+  r.dt = 1e-6;
+  for (int i = 0; i < 100; ++i) {
+    r.samples.push_back(sample_at(i, 0));
+    r.samples.back().wheel_x = -5e-9 * i;
+  }
+  evaluate(model, r);
+  EXPECT_EQ(r.evaluated_samples, 100);
+  EXPECT_EQ(r.steady_samples, 100);
+  EXPECT_FALSE(r.spectrum.square.empty());
+  EXPECT_TRUE(torque_has_settled(model.scene, r));
+  Scene ramped = model.scene;
+  ramped.motion->ramp = 1e-4;
+  EXPECT_FALSE(torque_has_settled(ramped, r));
+  r.driven = false;
+  EXPECT_TRUE(torque_has_settled(ramped, r));
+}
+
+TEST(Steps, TooManyToCountAreRefused) {
+  Scene scene;
+  scene.motion.emplace();
+  scene.motion->duration = 0.5;
+  scene.output.history_interval = 0.25;
+  EXPECT_EQ(step_count(scene, 0.125), 4);
+  EXPECT_EQ(sampling_interval(scene, 0.125), 2);
+  constexpr double kTiny = 1e-27;
+  EXPECT_THROW(step_count(scene, kTiny), InputError);
+  EXPECT_THROW(sampling_interval(scene, kTiny), InputError);
 }
 
 /// The patch of a slice in plane strain is that of its load per width, however narrow it is.
@@ -97,6 +212,48 @@ TEST(Warnings, ARailThatSinks) {
   EXPECT_EQ(warnings.back(),
             "the rail sinks by 700 mm under the wheel: above 20 mm its supports are doubted; a larger "
             "fastenings.stiffness holds it");
+}
+
+TEST(Warnings, AGuidedWheelWhoseTorqueFrictionDoesNotCarry) {
+  const Model model(samples::tyre_scene(
+      {"scene.element_size=12 mm", "wheel.bore=guided", "motion.traction.torque=30 kN m"}));
+  RunResults results;
+  results.samples.resize(1);
+  results.steady_samples = 1;
+  results.steady_slip_share = 1;
+  results.traction_coefficient = 0.5;
+  const std::vector<std::string> warnings = run_warnings(model, results);
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& warning) {
+    return warning.find("friction does not carry the torque") != std::string::npos;
+  }));
+}
+
+/// The 20 mm to the rail's end that the scene's check asks for are too few for a large wheel.
+TEST(Warnings, AWayThatIsTooShortKeepsRoomForTheSearch) {
+  const Model model(
+      samples::tyre_scene({"scene.element_size=12 mm", "wheel.diameter=1.2 m", "motion.duration=1 ms",
+                           "solution_zone.start=239 mm", "solution_zone.length=40 mm"}));
+  const std::vector<std::string> warnings = resolution_warnings(model);
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& warning) {
+    return warning.find("passes it, with rail.length = \"0.6 m\"") != std::string::npos;
+  }));
+}
+
+/// A torque brakes or drives the ring by half at the least, the rest spins it.
+TEST(Warnings, AWayUnderATorqueIsTheSureOne) {
+  const auto has = [](const std::vector<std::string>& overrides, const char* part) {
+    std::vector<std::string> all = {"scene.element_size=12 mm", "motion.speed=10 m/s",
+                                    "motion.traction.ramp=0.1 ms"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const std::vector<std::string> warnings = resolution_warnings(Model(samples::tyre_scene(all)));
+    return std::ranges::any_of(
+        warnings, [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(has({"motion.traction.torque=-15 kN m", "motion.duration=20 ms", "solution_zone.start=120 mm"},
+                  "m and may not reach the solution zone, x = 0.12 to 0.17 m, so that the run's values are "
+                  "those of the way from the start; the brakes may stop it before"));
+  EXPECT_TRUE(has({"motion.traction.torque=15 kN m", "motion.duration=1 ms", "solution_zone.start=220 mm"},
+                  "passes it, with rail.length = \"0.7 m\""));
 }
 
 TEST(Warnings, EnergiesThatDoNotBalance) {

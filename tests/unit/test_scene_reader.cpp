@@ -328,6 +328,8 @@ TEST(SceneReader, ProfilesAreReadBesideTheScene) {
       resolve_scene(SceneSource{"scene.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n", folder});
   EXPECT_EQ(resolved.scene.wheel->profile_y, (std::vector<double>{-70e-3, 65e-3}));
   EXPECT_EQ(resolved.scene.wheel->profile_z, (std::vector<double>{0, -3.1e-3}));
+  EXPECT_EQ(resolved.scene.wheel->profile_reading,
+            "two columns, stated or mm, 2 points; fewer than 10 points give radii only roughly");
   EXPECT_TRUE(resolved.scene.rail->profile_y.empty());
   expect_round_trip(resolved);
 }

@@ -73,24 +73,102 @@ TEST(Travel, BrakesTurnASlowWheelBack) {
   EXPECT_NEAR(travel.first, 0.1 - 0.5 * a * 0.01, 1e-12);
 }
 
-/// A ring of steel, 60 mm wide and thick, under 10 kN; its bore moves at the motion's speed or is free.
-TEST(Travel, RingsKeepTheirSpeedWhenGuided) {
-  const auto ring = [](const std::string& bore) {
-    return scene_of(
-        "[scene]\n[material.steel]\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = "
-        "0.3\n[rail]\nprofile = \"box\"\nsupport = \"rigid\"\nlength = \"2 m\"\norigin = \"0.5 "
-        "m\"\n"
-        "[solution_zone]\nstart = \"0.1 m\"\nlength = \"0.2 m\"\n"
-        "[wheel]\nshape = \"tyre\"\nprofile = \"arc\"\nbore = \"" +
-        bore +
-        "\"\n[load]\nwheel_load = \"10 kN\"\n"
-        "[contact]\n[motion]\nspeed = \"10 m/s\"\nduration = \"20 ms\"\ntraction.mu = 0.2\ntraction.ramp = "
-        "\"0 ms\"");
+/// A torque spins the wheel, of 586 kg, up or down, too; its inertia may be any up to that of a thin ring.
+TEST(Travel, ATorqueSpinsTheWheelToo) {
+  const double a = 0.5 * kLoad / 926, least = 0.5 * kLoad / (926 + 586);
+  const auto braked = [](double torque) {
+    return travel_of(
+        wheelset(fmt::format("speed = \"1 m/s\"\nduration = \"100 ms\"\ntraction.ramp = \"0 "
+                             "ms\"\ntraction.torque = \"{} N m\"",
+                             torque)));
   };
-  EXPECT_NEAR(travel_of(ring("guided")).last, 0.2, 1e-12);
-  const double mass = 7850 * std::numbers::pi * (0.43 * 0.43 - 0.37 * 0.37) * 0.06;
-  const double a = 0.2 * (10e3 + mass * 9.81) / mass;
-  EXPECT_NEAR(travel_of(ring("free")).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
+  const Travel travel = braked(-0.5 * kLoad * 0.43);
+  EXPECT_NEAR(travel.last, 0.5 / least, 1e-5);
+  EXPECT_NEAR(travel.sure, 0.5 / a, 1e-5);
+  EXPECT_NEAR(travel.first, 0.1 - 0.5 * a * 0.01, 1e-9);
+  EXPECT_NEAR(braked(-2 * kLoad * 0.43).last, 0.5 / a, 1e-5) << "a locked wheel slides";
+  const Travel driven = braked(0.5 * kLoad * 0.43);
+  EXPECT_NEAR(driven.last, 0.1 + 0.5 * a * 0.01, 1e-9);
+  EXPECT_NEAR(driven.sure, 0.1 + 0.5 * least * 0.01, 1e-9);
+}
+
+/// No wheel gets all of the torque where it drives and less where it brakes.
+TEST(Travel, ReversalsOfATorqueAreThoseOfAForce) {
+  const std::string motion =
+      "speed = \"100 km/h\"\nduration = \"200 ms\"\ntraction.ramp = \"5 ms\"\ntraction.reversals = 19\n";
+  const Travel force = travel_of(wheelset(motion + "traction.mu = 0.3"));
+  const Travel torque =
+      travel_of(wheelset(fmt::format("{}traction.torque = \"{} N m\"", motion, 0.3 * kLoad * 0.43)));
+  EXPECT_GT(force.last, 100 / 3.6 * 0.2 + 0.01);
+  EXPECT_EQ(force.sure, force.last);
+  EXPECT_NEAR(torque.last, force.last, 1e-9);
+  EXPECT_NEAR(torque.sure - 100 / 3.6 * 0.2, 926.0 / (926 + 586) * (force.last - 100 / 3.6 * 0.2), 1e-9);
+}
+
+/// The coefficient of friction falls to 0.2 where the patch slides.
+TEST(Travel, FallingFrictionBrakesAndDrivesLess) {
+  const auto travel = [](double mu) {
+    Scene scene = wheelset(fmt::format(
+        "speed = \"1 m/s\"\nduration = \"100 ms\"\ntraction.ramp = \"0 ms\"\ntraction.mu = {}", mu));
+    scene.contact->friction_law = "falling";
+    scene.contact->friction_fast = 0.2;
+    return travel_of(scene);
+  };
+  const double a = 0.5 * kLoad / 926, least = 0.2 * kLoad / 926;
+  EXPECT_NEAR(travel(-0.5).last, 0.5 / least, 1e-5);
+  EXPECT_NEAR(travel(-0.5).sure, 0.5 / a, 1e-5);
+  EXPECT_NEAR(travel(0.5).last, 0.1 + 0.5 * a * 0.01, 1e-9);
+  EXPECT_NEAR(travel(0.5).sure, 0.1 + 0.5 * least * 0.01, 1e-9);
+  EXPECT_EQ(travel(-0.2).last, travel(-0.2).sure);
+}
+
+/// Braking at its most stops the wheel of 1 m/s at 11 mm.
+TEST(Travel, ADurationIsThatOfTheSureWay) {
+  Scene scene = wheelset("speed = \"10 m/s\"\nduration = \"10 ms\"\ntraction.ramp = \"0 ms\"");
+  scene.motion->traction_torque = -0.5 * kLoad * 0.43;
+  scene.motion->duration = duration_to(scene, 0.4).value();
+  EXPECT_GE(travel_of(scene).sure, 0.4);
+  EXPECT_NEAR(travel_of(scene).sure, 0.4, 1e-3);
+  scene.motion->speed = 1;
+  ASSERT_GT(travel_of(scene).last, 0.015);
+  EXPECT_FALSE(duration_to(scene, 0.015));
+}
+
+/// Mass of the ring of steel [kg].
+constexpr double kRing = 7850 * std::numbers::pi * (0.43 * 0.43 - 0.37 * 0.37) * 0.06;
+
+/// Scene of a ring of steel, 60 mm wide and thick, under 10 kN; its bore moves at the motion's speed or is
+/// free.
+Scene ring(const std::string& bore, const std::string& motion) {
+  return scene_of(
+      "[scene]\n[material.steel]\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = "
+      "0.3\n[rail]\nprofile = \"box\"\nsupport = \"rigid\"\nlength = \"2 m\"\norigin = \"0.5 m\"\n"
+      "[solution_zone]\nstart = \"0.1 m\"\nlength = \"0.2 m\"\n"
+      "[wheel]\nshape = \"tyre\"\nprofile = \"arc\"\nbore = \"" +
+      bore + "\"\n[load]\nwheel_load = \"10 kN\"\n[contact]\n[motion]\nduration = \"20 ms\"\n" + motion);
+}
+
+TEST(Travel, RingsKeepTheirSpeedWhenGuided) {
+  const std::string driven = "speed = \"10 m/s\"\ntraction.mu = 0.2\ntraction.ramp = \"0 ms\"";
+  EXPECT_NEAR(travel_of(ring("guided", driven)).last, 0.2, 1e-12);
+  const double a = 0.2 * (10e3 + kRing * 9.81) / kRing;
+  EXPECT_NEAR(travel_of(ring("free", driven)).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
+}
+
+/// The slip of a creepage of 0.5 is two thirds of the speed; a thin ring's spin gives half of it at the most.
+TEST(Travel, FrictionAddsTheSlipOfTheStart) {
+  const double a = 0.5 * (10e3 + kRing * 9.81) / kRing;  // of sliding friction
+  const std::string fast = "speed = \"10 m/s\"\ncreepage = 0.5", slow = "speed = \"1 m/s\"\ncreepage = 0.5";
+  EXPECT_NEAR(travel_of(ring("free", fast)).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
+  const double gained = 1.0 / 3, sliding = gained / a;
+  ASSERT_LT(sliding, 0.01);
+  EXPECT_NEAR(travel_of(ring("free", slow)).last, 0.02 + gained * (0.02 - 0.5 * sliding), 1e-6);
+  EXPECT_NEAR(travel_of(ring("guided", fast)).last, 0.2, 1e-12);
+  const Travel locked = travel_of(ring("free", "speed = \"1 m/s\"\ncreepage = -2"));
+  EXPECT_EQ(locked.first, 0);
+  EXPECT_NEAR(locked.last, 0.02, 1e-12);
+  EXPECT_LT(locked.sure, 0.015);
+  EXPECT_NEAR(travel_of(ring("free", fast)).sure, 0.2, 1e-12);
 }
 
 /// The rail is divided alike at the end of the travel and before it.

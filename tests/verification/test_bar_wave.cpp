@@ -98,6 +98,25 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   EXPECT_NEAR(momentum, mass * scene.pulse->velocity, 1e-9 * momentum);
 }
 
+/// The forces of a damped bar hold those of its damping, its energy does not.
+TEST(BarWave, StrainEnergyOfADampedBarIsThatOfItsStrain) {
+  Scene scene = bar_scene();
+  scene.materials.at("steel").rayleigh_beta = 1e-7;
+  Model model(scene);
+  const Preload preload = solve_preload(model, {}, [](const std::string&) {});
+  Simulation simulation(model, preload, scene.motion->step_safety * step_limit(model).stable_step);
+  simulation.set_sampling_interval(1);
+  AlignedVector<double> u(index(3 * model.mesh.slots));
+  for (int step = 0; step < 30; ++step) {
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = simulation.displacement()[static_cast<std::int64_t>(i)];
+    simulation.step();
+    const DeformationEnergy energy = model.energy(0, u.data());
+    const double expected = energy.strain + energy.hourglass;
+    EXPECT_NEAR(simulation.sample().energy.strain, expected, 1e-9 * expected) << step;
+  }
+  EXPECT_GT(simulation.sample().energy.strain, 0);
+}
+
 /// Largest error of the velocity of a smooth pulse that ran through the bar, relative to its height. The step
 /// is a fixed share of the stable one.
 double pulse_error(double element_size) {

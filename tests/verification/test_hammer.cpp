@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/math/receptance.hpp"
 #include "drivers/engine/preload.hpp"
@@ -70,8 +71,8 @@ TEST(Hammer, GivesAFreeBarItsImpulseAndItsWork) {
   EXPECT_EQ(simulation.sample().hammer_force, 0);
 }
 
-TEST(Hammer, ReceptanceOfAnOscillator) {
-  // m x'' + c x' + k x = F: a half sine, then decay.
+/// m x'' + c x' + k x = F: a half sine, then decay. `later`: steps between the samples after 5 ms.
+void expect_receptance_of_an_oscillator(int later) {
   const double m = 2, c = 400, k = 1e5;
   BlowRecord record;
   double x = 0, v = 0;
@@ -79,7 +80,7 @@ TEST(Hammer, ReceptanceOfAnOscillator) {
   for (int i = 0; i < 200000; ++i) {
     const double t = i * kStep;
     const double force = t < 1e-3 ? std::sin(std::numbers::pi * t / 1e-3) : 0;
-    if (i % 20 == 0) {
+    if (i % (t < 5e-3 ? 20 : later) == 0) {
       record.time.push_back(t);
       record.force.push_back(force);
       record.response.push_back(x);
@@ -92,6 +93,45 @@ TEST(Hammer, ReceptanceOfAnOscillator) {
     const std::complex<double> theory = 1.0 / std::complex<double>(k - m * w * w, c * w);
     EXPECT_NEAR(std::abs(record.receptance(f) / theory - 1.0), 0, 2e-3) << f;
   }
+}
+
+/// Under a wheel the head is divided finer than the rail below it.
+TEST(Hammer, SectionsOfARailAreAtOnePlaceInAllBlocks) {
+  const Scene scene = resolve_scene(SceneSource{"rail.toml",
+                                                R"([scene]
+based_on = "highspeed-slab-2014"
+element_size = "10 mm"
+[slab]
+present = false
+[solution_zone]
+start = "0 m"
+length = "0.1 m"
+)",
+                                                {}},
+                                    {})
+                          .scene;
+  const Model model(scene);
+  const auto block = [&](int number) -> const SweptBlock& {
+    return model.mesh.blocks[static_cast<std::size_t>(number)];
+  };
+  ASSERT_NE(block(model.index.rail_cap).stations, block(model.index.rail_base).stations);
+  std::vector<double> u(static_cast<std::size_t>(3 * model.mesh.slots));
+  for (const int b : model.index.rail())
+    for (int station = 0; station < block(b).station_count(); ++station)
+      for (int node = 0; node < block(b).section.nodes(); ++node)
+        u[static_cast<std::size_t>(dof(block(b).base + block(b).slot(node, station), 2))] =
+            -block(b).stations[static_cast<std::size_t>(station)];
+  const RailAxis axis(model);
+  for (const double x : {-5.9, -0.02, 0.0, 0.0137, 2.0, axis.stations().back()})
+    EXPECT_NEAR(axis.deflection(x, u.data()), x, 1e-12) << x;
+}
+
+TEST(Hammer, ReceptanceOfAnOscillator) {
+  expect_receptance_of_an_oscillator(20);
+}
+
+TEST(Hammer, ReceptanceOfARecordWhoseIntervalChanges) {
+  expect_receptance_of_an_oscillator(40);
 }
 
 TEST(Hammer, FrequencyOfAHarmonicRecord) {

@@ -371,6 +371,33 @@ TEST(Multibody, StartsInTheFirstSpanBeyondTheRailsEnd) {
   EXPECT_DOUBLE_EQ(start(), dense.fastenings->first + 1.5 * 0.3);
 }
 
+TEST(Multibody, AStartWithinTheCorrugationOrTheStretchIsRefused) {
+  Scene near = scene(300, std::string(kCorrugationD) +
+                              "start = \"60 mm\"\nlength = \"180 mm\"\n[solution_zone]\nstart = \"0 m\"\n");
+  EXPECT_NO_THROW(multibody_model(near, BeamTheory::euler));
+  near.rail->origin = 0.35;
+  for (const char* place : {"begins at x = 0.060 m", "begins at x = 0.000 m"}) {
+    try {
+      multibody_model(near, BeamTheory::euler);
+      ADD_FAILURE() << place;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("the wheel would start at x = 0.100 m"), std::string::npos) << text;
+      EXPECT_NE(text.find(place), std::string::npos) << text;
+    }
+    near.corrugation.reset();
+  }
+  near.motion->start = "rigid";
+  near.zone_start = -0.02;
+  try {
+    multibody_model(near, BeamTheory::euler);
+    ADD_FAILURE() << "rigid";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("state a longer motion.run_up, or a later"), std::string::npos) << text;
+  }
+}
+
 TEST(Multibody, ScenesWithoutItsPartsAreRefused) {
   Scene rigid = scene(300, "");
   rigid.fastenings.reset();

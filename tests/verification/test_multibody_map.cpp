@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -11,10 +12,12 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/multibody_study.hpp"
 #include "drivers/studies/multibody/response_map.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -72,6 +75,79 @@ TEST(Calibration, RefusesARunThatIsAnother) {
   brief.x.resize(brief.x.size() / 3);
   brief.force.resize(brief.x.size());
   EXPECT_THROW(calibrate(model_of(300, 80), brief, kQuick), InputError);
+}
+
+/// One of so many samples of a run, 0.83 mm apart.
+TransientRun thinned(const TransientRun& run, std::size_t every) {
+  TransientRun thin = run;
+  for (std::vector<double> TransientRun::*column :
+       {&TransientRun::time, &TransientRun::x, &TransientRun::force}) {
+    (thin.*column).clear();
+    for (std::size_t i = 0; i < run.x.size(); i += every) (thin.*column).push_back((run.*column)[i]);
+  }
+  return thin;
+}
+
+/// Message of the InputError that a call throws; empty without one.
+template <class Call>
+std::string refusal_of(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Calibration, RefusesSamplesTooFarApart) {
+  const MultibodyModel model = model_of(300, 80);
+  const TransientRun run = run_with(1);
+  EXPECT_EQ(refusal_of([&] { map_dot(model, thinned(run, 10)); }), "");
+  EXPECT_EQ(refusal_of([&] { calibrate(model, thinned(run, 10), kQuick); }), "");
+  for (const std::size_t every : {std::size_t{16}, std::size_t{100}, run.x.size() - 1}) {
+    const TransientRun few = thinned(run, every);
+    const std::string dot = refusal_of([&] { map_dot(model, few); });
+    EXPECT_TRUE(dot.starts_with("--dots made/up: its histories.csv has ")) << every << dot;
+    const std::string fit = refusal_of([&] { calibrate(model, few, kQuick); });
+    EXPECT_TRUE(fit.starts_with("--calibrate made/up: its histories.csv has ")) << every << fit;
+    EXPECT_NE(fit.find("a shorter output.history_interval"), std::string::npos) << fit;
+  }
+}
+
+/// A run that ends within the corrugation, beside a model that rolls on.
+TEST(Calibration, ComparesTheShiftsOfTheSameCrests) {
+  const MultibodyModel model = model_of(300, 80);
+  const TransientRun whole = run_with(1);
+  TransientRun brief = whole;
+  const auto end = std::upper_bound(brief.x.begin(), brief.x.end(), 2.7);
+  for (std::vector<double>* column : {&brief.time, &brief.force})
+    column->resize(static_cast<std::size_t>(end - brief.x.begin()));
+  brief.x.erase(end, brief.x.end());
+  const Calibration c = calibrate(model, brief, kQuick);
+  // Its three crests have other shifts than all six.
+  EXPECT_GT(std::abs(c.run.shift - calibrate(model, whole, kQuick).run.shift), 0.02);
+  EXPECT_NEAR(c.before.shift, c.run.shift, 1e-6);
+}
+
+/// Depths of a file of which the run keeps the checksum alone.
+TEST(Calibration, RefusesARunWhoseFileHasChanged) {
+  const samples::TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder.path / name) << text;
+  };
+  write("depths.txt", "# x [mm]  d [mm]\n0 0\n20 0.02\n40 0\n60 0.02\n80 0\n");
+  write("scene.toml",
+        "[scene]\nbased_on = \"highspeed-slab-2014\"\n[motion]\nspeed = \"300 km/h\"\n[corrugation]\n"
+        "kind = \"table\"\nfile = \"depths.txt\"\n");
+  keep_scene(folder.path, resolve_scene(folder.path / "scene.toml"));
+  write("histories.csv", "time [s],wheel_x [m],vertical_force [N]\n0,0,1\n1,1,1\n");
+  EXPECT_EQ(read_transient_run(folder.path).changed, "");
+  write("depths.txt", "# x [mm]  d [mm]\n0 0\n20 0.03\n40 0\n60 0.02\n80 0\n");
+  const TransientRun run = read_transient_run(folder.path);
+  const MultibodyModel model = multibody_model(run.scene, BeamTheory::euler);
+  const std::string file = "depths.txt has other contents here than there";
+  EXPECT_NE(refusal_of([&] { calibrate(model, run, kQuick); }).find(file), std::string::npos);
+  EXPECT_NE(refusal_of([&] { map_dot(model, run); }).find(file), std::string::npos);
 }
 
 TEST(Calibration, RefusesAnotherTrackOrVehicle) {

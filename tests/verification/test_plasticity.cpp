@@ -482,6 +482,7 @@ duration = "0.1 ms"
   measured("plastic work", energy.plastic_work, "J");
   measured("energy balance / plastic work", energy.residual / energy.plastic_work);
   EXPECT_GT(energy.plastic_work, 0);
+  EXPECT_LT(std::abs(energy.residual), 0.05 * energy.plastic_work);
 }
 
 }  // namespace

@@ -108,6 +108,7 @@ TEST(StepLimit, RefusesAClassicalDampingThatWouldStopTheRun) {
     step_limit(heavy);
     FAIL() << "accepted";
   } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("s of material.steel needs"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("state rayleigh_beta of at most"), std::string::npos)
         << error.what();
     EXPECT_NE(std::string(error.what()).find("damping_up_to = \"3 kHz\""), std::string::npos) << error.what();

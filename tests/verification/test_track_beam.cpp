@@ -274,6 +274,7 @@ TEST(RunningWheel, IsPeriodic) {
             {})
             .scene;
     RunningWheel running = running_wheel(scene, vehicle);
+    EXPECT_LT(running.change, 0.01);
     BeamPassage& passage = running.passage;
     constexpr int kSteps = 400;
     const double spacing = scene.fastenings->spacing;
@@ -306,6 +307,22 @@ TEST(RunningWheel, SettlesOnAShortRail) {
   const RunningWheel running = running_wheel(scene, vehicle);
   EXPECT_GT(running.beam->left(), -20 * scene.fastenings->spacing);
   EXPECT_NEAR(running.passage.force(), vehicle.load(), 0.01 * vehicle.load());
+  EXPECT_LT(running.change, 0.01);
+}
+
+/// Nothing damps the swinging of the wheel on the soft track.
+TEST(RunningWheel, TellsThatItDoesNotSettle) {
+  const BeamVehicle vehicle = {926, {}, 8000, 880e3, 4e3, 0, 9e10, 9.81};
+  const Scene scene =
+      resolve_scene(
+          SceneSource{"x.toml",
+                      "[scene]\nbased_on = \"highspeed-slab-2014\"\n"
+                      "[fastenings]\nspacing = \"0.3 m\"\nstiffness = \"0.1 MN/m\"\ndamping = \"0 kN s/m\"\n"
+                      "[motion]\nspeed = \"600 km/h\"\n",
+                      {}},
+          {})
+          .scene;
+  EXPECT_GT(running_wheel(scene, vehicle).change, 0.02);
 }
 
 }  // namespace

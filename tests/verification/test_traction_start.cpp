@@ -41,6 +41,7 @@ TEST(TractionStart, KeepsTheForce) {
     Preload preload;
     const std::vector<Sample> samples = roll(scene_of(traction), preload);
     EXPECT_NEAR(preload.traction, traction, 1e-12);
+    EXPECT_LT(std::abs(preload.held_force_x), 1e-3 * 87564);
     double force = 0;
     double load = 0;
     for (const Sample& sample : samples) {
@@ -107,6 +108,17 @@ TEST(TractionStart, StatesTheCreepage) {
   slippery.contact->friction_at_x = {0.2, 0.5};
   EXPECT_GT(start_creepage(Model(slippery), 0.15), 1.1 * start_creepage(model, 0.15));
   EXPECT_EQ(start_creepage(Model(scene_of(0.2, {"motion.creepage=0.001"})), 0.2), 0.001);
+}
+
+/// A nearly flat gap has an ellipse of Hertz that is wider than the bodies, which bear the load as a line.
+TEST(TractionStart, StatesCartersCreepageWhereTheBodiesEndWithinTheEllipse) {
+  const Model model(scene_of(0.2, {"wheel.crown_radius=100 m"}));
+  ASSERT_EQ(model.line_width, 0);
+  ASSERT_GT(model.hertz_patch.semi_axis_y, 0.03);
+  const double semi_axis = line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(),
+                                          model.wheel_load() / 0.06);
+  const double carter = 0.5 * semi_axis / model.wheel_radius() * (1 - std::sqrt(1 - 0.2 / 0.5));
+  EXPECT_NEAR(start_creepage(model, 0.2), carter, 1e-6 * carter);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // A feature of a scene: its state, its phases of the step, its energies. An absent feature has no object.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/body_frame.hpp"
@@ -76,8 +77,9 @@ struct StaticStart {
   NodeField displacement;  ///< [m]
   NodeField velocity;      ///< [m/s]
   BodyFrame& wheel;
-  double dt;            ///< [s]
-  double traction = 0;  ///< shear stress over pressure [-]
+  double dt;                               ///< [s]
+  double traction = 0;                     ///< shear stress over pressure [-]
+  std::span<const double> rail_rise = {};  ///< at rest, along the record's RailLine [m]
 };
 
 /// Motion of the sprung mass of a wheel that has been rolling, against that at rest.

@@ -29,7 +29,7 @@ class SurfaceRecord final : public Feature {
   void apply(StepPhase phase, StepState& step) override;
   void watch(const StepState& step, WatchedNodes& nodes) const override;
   void list_state(StateList& list) override;
-  void settle(const StaticStart& start) override { line_.note_static(start.displacement); }
+  void settle(const StaticStart& start) override { line_.note_static(start.rail_rise); }
 
  private:
   /// Returns true if a sample of this step notes the deflection.

@@ -20,12 +20,23 @@ class WatchedNodes {
   void add_element(int block, int quad, int station);
 
   /// In the order in which they were added.
-  const std::vector<std::int64_t>& groups() const { return groups_; }
+  const std::vector<std::int64_t>& groups() const { return groups_.listed; }
+  /// Tiles that hold the elements, numbered over all blocks; likewise.
+  const std::vector<std::int64_t>& tiles() const { return tiles_.listed; }
 
  private:
+  /// Numbers, each once.
+  struct Numbers {
+    explicit Numbers(std::int64_t all);
+    void clear();
+    void add(std::int64_t number);
+
+    std::vector<std::int64_t> listed;
+    std::vector<unsigned char> added;  ///< by number
+  };
+
   const Mesh* mesh_;
-  std::vector<std::int64_t> groups_;
-  std::vector<unsigned char> added_;  ///< by group
+  Numbers groups_, tiles_;
 };
 
 }  // namespace tread

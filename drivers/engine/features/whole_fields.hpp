@@ -17,7 +17,7 @@ class WholeFields {
   virtual void changed() {}
   /// True in steps in which the views do not hold all values.
   virtual bool elsewhere() const { return false; }
-  /// Brings these nodes, and the state of laws, to the views.
+  /// Brings these nodes, and the state of laws in the elements among them, to the views.
   virtual void show(const WatchedNodes& /*nodes*/) {}
   /// True in steps in which tied nodes get their forces and motion where the values live.
   virtual bool ties_follow() const { return false; }

@@ -155,7 +155,7 @@ Report comparison_report(const Outcome& o, const CompareOptions& options) {
 void compare_curves(const CompareOptions& options) {
   const ComparisonOptions choice = comparison_options(options);
   Outcome o{read_transient_run(options.run, options.force == "F_L" ? "longitudinal_force" : "vertical_force"),
-            read_force_curve(options.file, options.offset),
+            read_force_curve(options.file, options.force, options.offset),
             choice,
             {}};
   o.found = compare(o.run, o.curve, choice);

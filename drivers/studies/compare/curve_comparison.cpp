@@ -10,16 +10,19 @@
 #include "core/math/interpolation.hpp"
 #include "drivers/engine/sections.hpp"
 #include "io/scene/table_reader.hpp"
+#include "io/text/text.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
 
-ForceCurve read_force_curve(const std::filesystem::path& path, const std::string& offset) {
+ForceCurve read_force_curve(const std::filesystem::path& path, const std::string& force,
+                            const std::string& offset) {
   TableRules rules{.needs_units = true, .increasing = true};
   rules.first = {kLength, kTime};
   rules.second = {kForce};
-  rules.names = {{"x", "s", "t", "time"}, {"f_n", "f", "force"}};
-  rules.example = "F_N [kN]";
+  // The other force's name is out of place in the second column.
+  rules.names = {{"x", "s", "t", "time", force == "F_N" ? "f_l" : "f_n"}, {lower_case(force), "f", "force"}};
+  rules.example = force + " [kN]";
   TwoColumns columns = read_two_columns(path, rules);
   ForceCurve curve{path.string(), columns.dimension == kTime.dimension, std::move(columns.first),
                    std::move(columns.second)};

@@ -19,9 +19,11 @@ struct ForceCurve {
   std::vector<double> force;  ///< [N]
 };
 
-/// Reads two columns with a unit line such as "# x [m]  F_N [kN]"; the first may be a time. `offset` is added
-/// to it: "0.1 m" or "2 ms", or empty. Throws InputError, ProblemsError where lines are bad.
-ForceCurve read_force_curve(const std::filesystem::path& path, const std::string& offset);
+/// Reads two columns with a unit line such as "# x [m]  F_N [kN]"; the first may be a time. `force`: "F_N" or
+/// "F_L"; a line that names the other one is refused. `offset` is added to the first column: "0.1 m" or
+/// "2 ms", or empty. Throws InputError, ProblemsError where lines are bad.
+ForceCurve read_force_curve(const std::filesystem::path& path, const std::string& force,
+                            const std::string& offset);
 
 struct ComparisonOptions {
   double mean = 0;              ///< way over which both curves are averaged; 0: none [m]

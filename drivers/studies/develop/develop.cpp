@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "drivers/process/interruption.hpp"
+#include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/develop/development_folder.hpp"
 #include "drivers/studies/develop/development_report.hpp"
+#include "drivers/studies/develop/passage_room.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
@@ -41,10 +43,16 @@ std::string passage_text(const Development& development) {
 void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
-  std::optional<double> room;
-  if (options.from.empty() && !std::filesystem::exists(options.output / kKeptScene))
-    room = room_of_passage0(resolved, options.passages);
+  require_folder_of(options.output, "develop");
   Progress progress(options.quiet);
+  std::optional<double> room;
+  if (!std::filesystem::exists(options.output / kKeptScene)) {
+    if (options.from.empty())
+      room = room_of_passage0(resolved, options.passages);
+    else if (const std::string outgrown = outgrown_room(resolved.scene, options.from, options.passages);
+             !outgrown.empty())
+      progress.say("[develop] warning: " + outgrown);
+  }
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
   const DevelopmentFolder folder(options.output, resolved,

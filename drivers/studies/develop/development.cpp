@@ -53,15 +53,16 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
   require(wear.longest <= length * (1 + 1e-9),
           fmt::format("wear.longest = {:.4g} mm is more than the corrugation's length, {:.4g} mm",
                       1e3 * wear.longest, 1e3 * length));
-  const double way = travel_of(scene).last;
+  const double way = travel_of(scene).sure;
   const double passed = corrugation.last() + kWayBeyond;
   const std::optional<double> enough = duration_to(scene, passed);
-  require(way >= passed,
-          fmt::format("the wheel rolls to x = {:.4g} m and so does not pass the corrugation, which ends at "
-                      "{:.4g} m; {}",
-                      way, corrugation.last(),
-                      enough ? fmt::format("motion.duration must be {:.4g} ms at least", 1e3 * *enough)
-                             : "the brakes stop it before"));
+  require(
+      way >= passed,
+      fmt::format("the wheel surely rolls to x = {:.4g} m only and so may not pass the corrugation, which "
+                  "ends at {:.4g} m; {}",
+                  way, corrugation.last(),
+                  enough ? fmt::format("motion.duration must be {:.4g} ms at least", 1e3 * *enough)
+                         : "the brakes may stop it before"));
 }
 
 /// Spacing of a file's places, their mean, or of depths that show the shortest wave [m].

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -11,8 +10,7 @@
 #include "core/error.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/process/machine.hpp"
-#include "drivers/results/scene_model.hpp"
-#include "drivers/run/fork.hpp"
+#include "drivers/studies/develop/passage_room.hpp"
 #include "drivers/studies/study/finished_run.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/absolute_path.hpp"
@@ -53,16 +51,7 @@ std::string fork_table(const Scene& scene) {
   return "\n[forks]\n" + (stated ? fmt::format("at = \"{} s\"\n", *scene.forks->at) : "");
 }
 
-/// Room in passage 0 for waves that grow by the largest change in each of the passages, at least to twice
-/// their depth [m].
-double growing_room(const Scene& scene, int passages) {
-  const double growth = std::max(2.0, std::pow(1 + scene.wear->change, passages));
-  const double most = find_key("contact.depth_room")->range.high;
-  return std::max(forks_room(scene), std::min(growth * corrugation_depth(scene), most));
-}
-
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
-  require_folder_of(folder, "develop");
   if (!fs::exists(folder / kKeptScene)) return;
   const std::string other = difference(scene_content(resolved), kept_scene(folder).content);
   if (!other.empty())
@@ -331,43 +320,6 @@ SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
   }
   result.average();
   return result;
-}
-
-namespace {
-
-/// Approach of the wheel to the zone in passage 0 with so much room [m]; nullopt where the way is long enough
-/// for any.
-std::optional<Approach> near_approach(const ResolvedScene& resolved, double room) {
-  constexpr double kFar = 0.3;  // beyond the reach of any patch [m]
-  Scene smooth = resolved.scene;
-  if (smooth.forks && smooth.forks->at) return std::nullopt;
-  if (smooth.zone_start - smooth.start_x() > kFar) return std::nullopt;
-  smooth.contact->depth_room = room;
-  smooth.corrugation.reset();
-  smooth.wear.reset();
-  smooth.forks.emplace();
-  const Model model = scene_model(smooth, resolved);
-  return approach_of(smooth, model.contact->reach());
-}
-
-}  // namespace
-
-double room_of_passage0(const ResolvedScene& resolved, int passages) {
-  const Scene& scene = resolved.scene;
-  const auto has_way = [&](const std::optional<Approach>& approach) {
-    return !approach || approach->time(*scene.motion, scene.zone_start) > 0;
-  };
-  const double grown = growing_room(scene, passages);
-  if (has_way(near_approach(resolved, grown))) return grown;
-  const double least = growing_room(scene, 0);
-  const std::optional<Approach> approach = near_approach(resolved, least);
-  if (has_way(approach)) return least;
-  throw InputError(fmt::format(
-      "tread develop: solution_zone.start = {:.4g} mm: all passages begin with a state that is kept before "
-      "the patch comes near the zone, but the wheel starts at x = {:.4g} mm and needs a way of more than "
-      "{:.4g} mm up to it; state {}, or the time of the state by forks.at",
-      1e3 * scene.zone_start, 1e3 * scene.start_x(), 1e3 * approach->before,
-      scene.motion->run_up ? "a longer motion.run_up" : "a later solution_zone.start"));
 }
 
 }  // namespace tread

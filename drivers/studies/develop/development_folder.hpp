@@ -57,9 +57,4 @@ class DevelopmentFolder {
 /// stretch.
 SurfaceWork work_of_run(const std::filesystem::path& surface, double first, double last);
 
-/// Room that passage 0 leaves for growing waves [m]: for those of so many passages where its wheel has way
-/// enough before the solution zone, otherwise for waves twice as deep. Throws InputError where the wheel
-/// stands too near the zone for a state before it, and the scene does not state forks.at.
-double room_of_passage0(const ResolvedScene& resolved, int passages);
-
 }  // namespace tread

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "io/report/markup.hpp"
 #include "io/text/units.hpp"
 
@@ -28,14 +29,15 @@ double wanted_error(const std::string& text) {
 }
 
 /// With the settings; `hidden_quality`: without the scene's element size, as the advice says.
-Estimate cost_with(const ResolvedScene& resolved, const std::vector<std::string>& settings,
-                   bool hidden_quality) {
+ResolvedScene scene_with(const ResolvedScene& resolved, const std::vector<std::string>& settings,
+                         bool hidden_quality) {
   std::vector<std::string> overrides = resolved.overrides;
   overrides.insert(overrides.end(), settings.begin(), settings.end());
-  Scene scene = resolve_scene(resolved.source, overrides).scene;
-  if (hidden_quality) scene.element_size.reset();
-  Model model(scene);
-  return estimate(model, file_bytes(resolved.source));
+  ResolvedScene other = resolve_scene(resolved.source, overrides);
+  if (!hidden_quality) return other;
+  other.scene.element_size.reset();
+  std::erase_if(other.entries, [](const Entry& entry) { return entry.path == "scene.element_size"; });
+  return other;
 }
 
 std::string settings_text(const DialRow& row) {
@@ -75,7 +77,13 @@ std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions&
   if (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, dial_cost(options.cost))) {
     advice.row = *row;
     advice.hidden_quality = hides_quality(resolved, *row);
-    advice.cost = cost_with(resolved, row->settings, advice.hidden_quality);
+    const ResolvedScene other = scene_with(resolved, row->settings, advice.hidden_quality);
+    try {
+      Model model = scene_model(other.scene, other);
+      advice.cost = estimate(model, file_bytes(other.source));
+    } catch (const Error& error) {
+      advice.no_cost = error.what();
+    }
   }
   return advice;
 }
@@ -100,6 +108,7 @@ std::string advice_text(const Advice& advice) {
   text += fmt::format("         {}\n", settings_text(*advice.row));
   if (advice.hidden_quality)
     text += "          and scene.element_size left out of the scene, which hides the quality\n";
+  if (!advice.cost) return text + fmt::format("          this scene with it: {}\n", advice.no_cost);
   return text + fmt::format("          this scene with it: about {}, {} elements, {} steps\n",
                             duration_text(advice.cost->seconds()), advice.cost->elements, advice.cost->steps);
 }
@@ -113,7 +122,10 @@ Json advice_json(const Advice& advice) {
     json["point"] = advice.row->point;
     json["error"] = error_of(*advice.row, advice.quantity).value_or(0);
     json["settings"] = advice.row->settings;
-    json["seconds"] = advice.cost->seconds();
+    if (advice.cost)
+      json["seconds"] = advice.cost->seconds();
+    else
+      json["no_cost"] = advice.no_cost;
   }
   return json;
 }

@@ -28,6 +28,7 @@ struct Advice {
   std::optional<DialRow> row;      ///< the cheapest; absent where none is as near
   std::optional<DialRow> nearest;  ///< of all
   std::optional<Estimate> cost;    ///< of the scene with the row's settings, with the threads in use
+  std::string no_cost = {};        ///< why a row has no cost: its mesh cannot be built here
   bool hidden_quality = false;     ///< the row sets the quality, but the scene states an element size
 };
 

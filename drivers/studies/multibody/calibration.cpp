@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
@@ -13,7 +14,6 @@
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/model_difference.hpp"
 #include "io/files/history_reader.hpp"
-#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
@@ -76,10 +76,19 @@ class Fit {
     }
     fit.misfit = std::sqrt(squares / static_cast<double>(x.size()));
     fit.force = statistics(fit.values);
-    if (model_.scene.corrugation && model_.scene.corrugation->kind == "sine")
-      fit.shift = mean_shift(
-          crest_peaks(model_.corrugation, model_.scene.corrugation->wavelength, curve.x, curve.force));
+    if (model_.scene.corrugation && model_.scene.corrugation->kind == "sine") fit.shift = shift_of(curve);
     return fit;
+  }
+
+  /// Mean over the crests that the run covers, too: the model rolls on to the corrugation's end.
+  double shift_of(const Curve& curve) const {
+    const double wavelength = model_.scene.corrugation->wavelength;
+    std::vector<CrestPeak> peaks = crest_peaks(model_.corrugation, wavelength, curve.x, curve.force);
+    std::erase_if(peaks, [&](const CrestPeak& peak) {
+      return peak.crest - 0.5 * wavelength <= run_.x.front() ||
+             peak.crest + 0.5 * wavelength >= run_.x.back();
+    });
+    return mean_shift(peaks);
   }
 
   MultibodyModel model_;
@@ -123,7 +132,9 @@ TransientRun read_transient_run(const std::filesystem::path& directory, const st
         fmt::format("{}: it is no run's folder, it has no {}; give the one that `tread run -o` was given, of "
                     "a study that of one of its runs",
                     directory.string(), kKeptScene));
-  run.scene = read_scene(directory / kKeptScene);
+  KeptScene kept = kept_scene(directory);
+  run.changed = difference(scene_content(kept.resolved), kept.content);
+  run.scene = std::move(kept.resolved.scene);
   if (!run.scene.motion)
     throw InputError(
         fmt::format("{}: a run without [motion] has no histories; give the folder of a run that rolls",
@@ -139,17 +150,46 @@ TransientRun read_transient_run(const std::filesystem::path& directory, const st
   return run;
 }
 
+void require_same_files(const TransientRun& run, const std::string& option) {
+  if (!run.changed.empty())
+    throw InputError(
+        fmt::format("{}: {} (here: on the disk, there: the run); put back what the run had, or run it again",
+                    option, run.changed));
+}
+
+void require_samples(const TransientRun& run, const std::string& option, const Span& stretch, double wave) {
+  constexpr double kOfAWave = 8;
+  int count = 0;
+  double widest = 0;
+  double before = stretch.first;
+  for (const double x : run.x) {
+    if (x < stretch.first || x > stretch.last) continue;
+    ++count;
+    widest = std::max(widest, x - before);
+    before = x;
+  }
+  widest = std::max(widest, stretch.last - before);
+  if (count >= 2 && widest <= wave / kOfAWave) return;
+  throw InputError(fmt::format(
+      "{}: its histories.csv has {} row{} in x = {:.3f} to {:.3f} m, up to {:.3g} mm apart, and "
+      "a wave of {:.3g} mm takes {:g}; run it again with a shorter output.history_interval",
+      option, count, count == 1 ? "" : "s", stretch.first, stretch.last, 1e3 * widest, 1e3 * wave, kOfAWave));
+}
+
 Calibration calibrate(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step) {
+  const std::string option = "--calibrate " + run.directory.string();
+  require_same_files(run, option);
   require_same_passage(model, run);
   const Fit fit(model, run, step);
   const double wave = model.scene.corrugation && model.scene.corrugation->kind == "sine"
                           ? model.scene.corrugation->wavelength
                           : 0.05;
   if (fit.last - fit.first < wave)
-    throw InputError(fmt::format(
-        "--calibrate {}: the run covers x = {:.3f} to {:.3f} m, less than {:.3g} mm of the stretch that is "
-        "evaluated; let it roll further (motion.duration)",
-        run.directory.string(), run.x.front(), run.x.back(), 1e3 * wave));
+    throw InputError(
+        fmt::format("{}: the run covers x = {:.3f} to {:.3f} m, less than {:.3g} mm of the stretch that is "
+                    "evaluated; let it roll further (motion.duration)",
+                    option, run.x.front(), run.x.back(), 1e3 * wave));
+  require_samples(run, option, {fit.first, fit.last}, wave);
   Calibration c;
   c.first = fit.first;
   c.last = fit.last;

@@ -13,6 +13,7 @@ namespace tread {
 struct TransientRun {
   std::filesystem::path directory;
   Scene scene;
+  std::string changed;        ///< sentence on a file of the scene that has changed since; empty: none
   std::vector<double> time;   ///< [s]
   std::vector<double> x;      ///< ascending places of the wheel [m]
   std::vector<double> force;  ///< F_N, or the force that was asked for [N]
@@ -27,11 +28,19 @@ struct TransientRun {
 TransientRun read_transient_run(const std::filesystem::path& directory,
                                 const std::string& force = "vertical_force");
 
+/// Throws InputError where a file of the run's scene has changed since. `option`: the option and the run's
+/// directory, with which the message begins.
+void require_same_files(const TransientRun& run, const std::string& option);
+
+/// Throws InputError where the run's samples on a stretch are too far apart to show waves of this length [m].
+/// `option` as in require_same_files().
+void require_samples(const TransientRun& run, const std::string& option, const Span& stretch, double wave);
+
 /// Comparison of a curve of F_N with the run's over the evaluated stretch.
 struct CurveFit {
   std::vector<double> values;  ///< F_N at Calibration::x [N]
   Statistics force;            ///< [N]
-  double shift = 0;            ///< mean lead of the peaks before the crests [rad]
+  double shift = 0;            ///< mean lead of the peaks before the crests that the run covers [rad]
   double misfit = 0;           ///< root mean square of the difference from the run [N]
 };
 
@@ -47,8 +56,8 @@ struct Calibration {
 };
 
 /// Fits C: the value between a twentieth and the triple of the scene's with the least misfit. The model rolls
-/// as fast as the run does on the stretch. Throws InputError if the run's scene makes another model or the
-/// run ends before a wave is past.
+/// as fast as the run does on the stretch. Throws InputError if the run's scene makes another model, if the
+/// run ends before a wave is past, and as require_same_files() and require_samples().
 Calibration calibrate(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step);
 
 }  // namespace tread

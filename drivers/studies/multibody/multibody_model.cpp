@@ -158,6 +158,16 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
                     "from {:.3f} to "
                     "{:.3f} m; state a longer rail.length or another rail.origin",
                     model.start, model.end, left + kEndOfRail, last));
+  const double first = model.corrugation.smooth() ? evaluated_stretch(scene, model.corrugation).first
+                                                  : model.corrugation.first();
+  if (model.start > first)
+    throw InputError(
+        fmt::format("tread multibody: the wheel would start at x = {:.3f} m, but the corrugation or the "
+                    "stretch that is evaluated begins at x = {:.3f} m; state {}, or a later "
+                    "corrugation.start and solution_zone.start",
+                    model.start, first,
+                    scene.start() == "rigid" ? "a longer motion.run_up"
+                                             : "a larger rail.origin with a longer rail.length"));
   return model;
 }
 

@@ -61,7 +61,8 @@ struct MultibodyModel {
 /// Model of a half wheelset over a rail on fastenings, over the corrugation or the solution zone, whatever
 /// the scene's duration. The wheel starts in the middle of the first span that is at least 0.3 m from the
 /// rail's end, or, where motion.start is "rigid", at Scene::start_x(). Slab and mortar are rigid; sleepers
-/// are rigid bodies on their beds. Throws InputError for scenes that lack a part or whose rail is too short.
+/// are rigid bodies on their beds. Throws InputError for scenes that lack a part, whose rail is too short, or
+/// whose corrugation or evaluated stretch begins before the wheel's start.
 MultibodyModel multibody_model(const Scene& scene, BeamTheory theory);
 
 /// Corrugation as the model's scene states it, before any filter.

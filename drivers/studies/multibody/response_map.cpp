@@ -159,6 +159,7 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
 
 MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   const std::string name = "--dots " + run.directory.string();
+  require_same_files(run, name);
   require_sine(run.scene, name);
   const CorrugationSpec& spec = *run.scene.corrugation;
   const Corrugation corrugation = corrugation_of(spec, 0);
@@ -166,6 +167,8 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   if (run.x.back() < std::min(stretch.first + spec.wavelength, stretch.last))
     throw InputError(fmt::format("{}: the run ends at x = {:.3f} m, before a wave of its corrugation is past",
                                  name, run.x.back()));
+  require_samples(run, name, {std::max(stretch.first, run.x.front()), std::min(stretch.last, run.x.back())},
+                  spec.wavelength);
   Extremes extremes;
   for (std::size_t i = 0; i < run.x.size(); ++i)
     if (run.x[i] >= stretch.first && run.x[i] <= stretch.last) extremes.add(run.force[i]);

@@ -58,7 +58,8 @@ struct MapDot {
   std::string remark;       ///< differences of its scene from the map's
 };
 
-/// Dot of a run. Throws InputError if the run has no sine or has not reached it.
+/// Dot of a run. Throws InputError if the run has no sine or has not reached it, and as require_same_files()
+/// and require_samples().
 MapDot map_dot(const MultibodyModel& model, const TransientRun& run);
 
 }  // namespace tread

@@ -21,14 +21,14 @@ std::string shell_words(const std::vector<std::string>& words) {
   return text;
 }
 
-/// An element of the array: the folder of its run, the words after "tread", threads and device for resuming,
-/// and whether a failed run begins anew.
+/// An element of the array: the folder of its run, the words after "tread", threads, device and changed
+/// values for resuming, and whether a failed run begins anew.
 std::string element(const StudyPlan& plan, const PlannedPoint& point, std::size_t number) {
   const bool anew = point.status.state == PointState::failed && point.status.anew;
-  return fmt::format("{}) folder={} words=({} ) place=({} ) anew={} ;;\n", number,
-                     shell_word(point.folder.string()),
-                     shell_words(point_arguments(plan, point, plan.threads)),
-                     shell_words(place_arguments(plan, plan.threads)), anew ? 1 : 0);
+  return fmt::format(
+      "{}) folder={} words=({} ) place=({} ) changed=({} ) anew={} ;;\n", number,
+      shell_word(point.folder.string()), shell_words(point_arguments(plan, point, plan.threads)),
+      shell_words(place_arguments(plan, plan.threads)), shell_words(changed_arguments(point)), anew ? 1 : 0);
 }
 
 /// The command line without --slurm and its file.
@@ -66,9 +66,10 @@ case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
 esac
 if ((anew)) && grep -qs '"exit": [23],' "$folder/failed.json"; then
   : # it would come to the same end; queued again, it goes on
-elif ls "$folder"/checkpoint/*.h5 >/dev/null 2>&1 || [[ -e $folder/summary.json ]]; then
-  # of a finished run it says so
-  words=(resume "$folder" "${{place[@]}}")
+elif ls "$folder"/checkpoint/*.h5 >/dev/null 2>&1; then
+  words=(resume "$folder" "${{place[@]}}" "${{changed[@]}}")
+elif [[ -e $folder/summary.json ]]; then
+  words=(resume "$folder" "${{place[@]}}") # says that the run is finished
 fi
 rm -f "$folder/failed.json"
 "${{tread[@]}}" "${{words[@]}}" &
@@ -88,7 +89,8 @@ case $code in
   why+=": see the output of job $SLURM_JOB_ID, element $SLURM_ARRAY_TASK_ID"
   mkdir -p "$folder"
   printf '{{\n  "exit": %d,\n  "signal": %d,\n  "why": "%s",\n  "anew": %s\n}}\n' \
-    $exit $signal "$why" $anew >"$folder/failed.json"
+    $exit $signal "$why" $anew >"$folder/failed.json.part" &&
+    mv "$folder/failed.json.part" "$folder/failed.json"
   ;;
 esac
 exit $code

@@ -121,13 +121,6 @@ std::string reason(const fs::path& folder, const PointProcess& process) {
   return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
 }
 
-/// Exit code of a process that failed; a code that is not the program's own counts as the machine's.
-ExitCode exit_code(std::optional<double> code) {
-  for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
-    if (code && *code == static_cast<double>(known)) return known;
-  return ExitCode::resources;
-}
-
 /// Finds why the run in the folder is not that of the scene, and which state the run keeps.
 void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
   try {
@@ -135,6 +128,7 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatu
     status.why = difference(scene, there.content);
     if (there.resolved.scene.forks) status.keeps_at = there.resolved.scene.forks->at;
     status.room = depth_room(there.resolved.scene);
+    status.process = process_values(there.resolved);
   } catch (const InputError& error) {
     status.why = fmt::format("its scene does not read: {}", error.what());
   }
@@ -142,13 +136,33 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatu
 }
 
 void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
-  write_text_file(folder / kFailure, json_text({{"exit", end.code},
-                                                {"signal", end.signal},
-                                                {"why", why},
-                                                {"anew", leads_to_the_same_end(end.code)}}));
+  try {
+    make_directory(folder);
+    write_text_file(folder / kFailure, json_text({{"exit", end.code},
+                                                  {"signal", end.signal},
+                                                  {"why", why},
+                                                  {"anew", leads_to_the_same_end(end.code)}}));
+  } catch (const ResourceError& error) {
+    throw ResourceError(fmt::format("{} ({})", why, error.what()));
+  }
+}
+
+/// Record of the failure in the folder; one that does not read tells of no cause that would come again.
+JsonRecord failure_in(const fs::path& folder) {
+  try {
+    return read_json(folder / kFailure);
+  } catch (const InputError&) {
+    return {{"why", fmt::format("its {} does not read", kFailure)}};
+  }
 }
 
 }  // namespace
+
+ExitCode failed_exit_code(std::optional<double> code) {
+  for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
+    if (code && *code == static_cast<double>(known)) return known;
+  return ExitCode::resources;
+}
 
 const char* name_of(PointState state) {
   switch (state) {
@@ -165,6 +179,10 @@ const char* name_of(PointState state) {
   }
 }
 
+SceneContent process_values(const ResolvedScene& scene) {
+  return content_of(scene, [](Effects effects) { return effects.only({Effect::process, Effect::stop}); });
+}
+
 PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
   PointStatus status;
   const CheckpointFolder checkpoints(folder / "checkpoint");
@@ -175,10 +193,10 @@ PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
   if (finished) {
     status.state = PointState::done;
   } else if (fs::exists(folder / kFailure)) {
-    const JsonRecord failure = read_json(folder / kFailure);
+    const JsonRecord failure = failure_in(folder);
     status.state = PointState::failed;
     if (!status.foreign) status.why = text_in(failure, "why");
-    status.code = exit_code(number_in(failure, "exit"));
+    status.code = failed_exit_code(number_in(failure, "exit"));
     status.anew = !begun || (truth_in(failure, "anew") && leads_to_the_same_end(number_in(failure, "exit")));
   } else if (begun) {
     status.state = PointState::interrupted;
@@ -220,7 +238,6 @@ void note_end(const fs::path& folder, const PointProcess& process) {
 }
 
 void note_failure(const fs::path& folder, ExitCode code, const std::string& why) {
-  make_directory(folder);
   write_failure(folder, {static_cast<int>(code), 0}, why);
 }
 

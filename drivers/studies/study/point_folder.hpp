@@ -12,6 +12,9 @@
 
 namespace tread {
 
+/// Exit code of a process that failed; a code that is not the program's own counts as the machine's.
+ExitCode failed_exit_code(std::optional<double> code);
+
 enum class PointState {
   waiting,      ///< nothing done, or nothing of use
   interrupted,  ///< a checkpoint or an order to go on from
@@ -31,7 +34,12 @@ struct PointStatus {
   bool foreign = false;                 ///< true for a run of another scene: `why` says what differs
   std::optional<double> keeps_at = {};  ///< forks.at of the run in the folder [s]
   double room = 0;                      ///< room for a corrugation of its forks [m]
+  SceneContent process = {};            ///< process_values() of the run in the folder
 };
+
+/// Values that a run takes anew when it goes on and that make no other run of it: [stop], the disk's limit
+/// and the intervals of progress and checkpoints.
+SceneContent process_values(const ResolvedScene& scene);
 
 /// Status of the folder, which need not exist. A run in it counts whoever began it, if its scene is this one.
 PointStatus look_into(const std::filesystem::path& folder, const SceneContent& scene);
@@ -52,10 +60,10 @@ struct PointProcess {
 bool was_stopped(const std::filesystem::path& folder, const PointProcess& process);
 
 /// Notes the end of the folder's process: keeps the reason of a failure, or removes an older one. Throws
-/// ResourceError.
+/// ResourceError, which states the reason, where the folder cannot keep it.
 void note_end(const std::filesystem::path& folder, const PointProcess& process);
 
-/// Keeps the reason of a failure before the start. Throws ResourceError.
+/// Keeps the reason of a failure before the start. Throws as note_end().
 void note_failure(const std::filesystem::path& folder, ExitCode code, const std::string& why);
 
 /// Path of the output of the folder's processes, each of which appends to it.

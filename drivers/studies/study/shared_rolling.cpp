@@ -75,13 +75,15 @@ void choose_keeper(StudyPlan& plan, const SharedRolling& group, bool retry) {
   }
 }
 
-}  // namespace
-
+/// Returns true if runs of the scene can begin with the state of another one, or keep it, for another
+/// corrugation. A scene with [forks] keeps a state of its own.
 bool can_share(const Scene& scene) {
-  if (!scene.motion || scene.motion->speed <= 0 || !scene.contact) return false;
+  if (!scene.motion || scene.motion->speed <= 0 || !scene.contact || scene.forks) return false;
   if (scene.corrugation && scene.corrugation->apply != "gap") return false;
   return !scene.contact->depth_room || corrugation_depth(scene) <= *scene.contact->depth_room;
 }
+
+}  // namespace
 
 void find_shared_rolling(StudyPlan& plan) {
   std::map<SceneContent, std::vector<std::size_t>> alike;

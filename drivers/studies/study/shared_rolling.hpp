@@ -15,10 +15,6 @@ namespace tread {
 /// divides another rail, another interval of the histories begins with the state.
 void find_shared_rolling(StudyPlan& plan);
 
-/// Returns true if runs of the scene can begin with the state of another one, or keep it, for another
-/// corrugation.
-bool can_share(const Scene& scene);
-
 /// SharedRolling::room of the point.
 std::optional<double> room_of(const StudyPlan& plan, const PlannedPoint& point);
 

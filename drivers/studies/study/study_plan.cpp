@@ -103,6 +103,17 @@ void refuse_doubles(const StudyPlan& plan, PointProblems& problems) {
   }
 }
 
+/// Returns true for a point that may have failed by a stop.penetration other than the study's.
+bool failed_by_other_penetration(const PlannedPoint& point) {
+  const auto stated = [](const SceneContent& values) {
+    const auto found = values.find("stop.penetration");
+    return found == values.end() ? "" : found->second;
+  };
+  const SceneContent& there = point.status.process;
+  return point.status.code == ExitCode::numerical && !there.empty() &&
+         stated(there) != stated(process_values(point.resolved));
+}
+
 /// Calls `act(point)` for each point and collects its errors.
 void for_each_point(StudyPlan& plan, PointProblems& problems, const std::function<void(PlannedPoint&)>& act) {
   for (PlannedPoint& point : plan.points) {
@@ -121,7 +132,7 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
 /// Content on which the costs of a point's model depend.
 SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
-  const bool moves_nodes = !can_share(scene);
+  const bool moves_nodes = scene.corrugation && scene.corrugation->apply == "nodes";
   SceneContent content = content_of(point.resolved, [&](Effects effects) {
     return effects.on_cost() || (moves_nodes && effects.has(Effect::surface));
   });
@@ -237,6 +248,7 @@ void look_into_folders(StudyPlan& plan) {
   std::string foreign;
   for (PlannedPoint& point : plan.points) {
     point.status = look_into(point.folder, point.content);
+    if (failed_by_other_penetration(point)) point.status.anew = false;
     if (point.status.foreign) foreign += fmt::format("\n{}: {}", point.folder.string(), point.status.why);
   }
   if (!foreign.empty())

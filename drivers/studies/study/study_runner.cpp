@@ -14,6 +14,7 @@
 #include "drivers/process/interruption.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"
 
@@ -49,6 +50,22 @@ std::vector<std::string> place_arguments(const StudyPlan& plan, int count, int c
   return place;
 }
 
+std::vector<std::string> changed_arguments(const PlannedPoint& point) {
+  const SceneContent& there = point.status.process;
+  if (there.empty()) return {};
+  SceneContent here = process_values(point.resolved);
+  for (const auto& [path, value] : there)
+    if (const Key key = *find_key(path); key.quantity)
+      here.try_emplace(path, fmt::format("{} {}", key.range.high, key.quantity->si));
+  std::vector<std::string> arguments;
+  for (const auto& [path, value] : here) {
+    const auto found = there.find(path);
+    if (found == there.end() || found->second != value)
+      arguments.insert(arguments.end(), {"--set", path + "=" + value});
+  }
+  return arguments;
+}
+
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count,
                                          int card) {
   const PointStatus& status = point.status;
@@ -58,6 +75,8 @@ std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoi
   if (status.state == PointState::interrupted || (failed && !status.anew)) {
     arguments = {"resume", point.folder.string()};
     arguments.insert(arguments.end(), place.begin(), place.end());
+    const std::vector<std::string> changed = changed_arguments(point);
+    arguments.insert(arguments.end(), changed.begin(), changed.end());
     return arguments;
   }
   arguments = {"run", plan.study.scene.string()};
@@ -168,11 +187,28 @@ bool StudyRunner::is_being_stopped() const {
   return !stopped_by_.empty() || Interruption::stop_wanted();
 }
 
+/// Looks at the point again after `keep` has left its end in the folder. A full disk, which lets a point fail
+/// with `code` but without a record, must not end the study before its runs.
+void StudyRunner::note(PlannedPoint& point, ExitCode code, const std::function<void()>& keep) {
+  std::string unkept;
+  try {
+    keep();
+  } catch (const ResourceError& error) {
+    unkept = error.what();
+  }
+  point.status = look_into(point.folder, point.content);
+  if (unkept.empty()) return;
+  point.status.state = PointState::failed;
+  point.status.why = unkept;
+  point.status.code = code;
+}
+
 void StudyRunner::note_ended(const Running& running) {
   PlannedPoint& point = *running.point;
-  note_end(point.folder, {*running.end, is_being_stopped(), running.status_before, running.log_before});
+  note(point, failed_exit_code(running.end->code), [&] {
+    note_end(point.folder, {*running.end, is_being_stopped(), running.status_before, running.log_before});
+  });
   if (!plan_->launcher.empty()) withdraw_request(point.folder);
-  point.status = look_into(point.folder, point.content);
   if (point.status.foreign)
     point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};
   const std::string time = duration_text(progress_->seconds() - running.started);
@@ -186,10 +222,11 @@ void StudyRunner::note_ended(const Running& running) {
 
 /// Fails a point that would come to the same end as `keeper`, with whose state it was to begin.
 void StudyRunner::fail_with(const PlannedPoint& keeper, PlannedPoint& point) {
-  note_failure(point.folder, keeper.status.code,
-               fmt::format("not begun: up to {:.6g} ms it is the run of {}, which failed before: {}",
-                           1e3 * plan_->shared[*point.shared].until, keeper.name, keeper.status.why));
-  point.status = look_into(point.folder, point.content);
+  note(point, keeper.status.code, [&] {
+    note_failure(point.folder, keeper.status.code,
+                 fmt::format("not begun: up to {:.6g} ms it is the run of {}, which failed before: {}",
+                             1e3 * plan_->shared[*point.shared].until, keeper.name, keeper.status.why));
+  });
   progress_->say(fmt::format("[{}] {}", point.name, point.status.why));
 }
 

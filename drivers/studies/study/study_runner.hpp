@@ -2,6 +2,7 @@
 // The runs of a study as child processes, as many at once as the plan allows.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,7 @@ class StudyRunner {
   void start(PlannedPoint& point, int threads);
   void collect_ended();
   void note_ended(const Running& running);
+  static void note(PlannedPoint& point, ExitCode code, const std::function<void()>& keep);
   bool is_being_stopped() const;
   static bool owns_folder(const Running& running);
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
@@ -71,6 +73,10 @@ class StudyRunner {
 
 /// Threads and device of a run on a command line; as point_arguments().
 std::vector<std::string> place_arguments(const StudyPlan& plan, int threads, int card = -1);
+
+/// Arguments of `tread resume` for the process_values() in which the study differs from the run in the
+/// point's folder. A limit that the study does not state is as wide as its key allows.
+std::vector<std::string> changed_arguments(const PlannedPoint& point);
 
 /// Command line of a point after "tread"; `threads` of 0 are not stated. `card`: in place of the plan's
 /// device unless below 0.
