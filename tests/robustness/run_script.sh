@@ -62,6 +62,8 @@ done
 try 60 "$work/my.toml"
 [[ $status == 0 && $(runs) == 1 ]] || fail "a short run has no preview"
 grep -q "^run $work/my.toml -o $work/out\$" "$work/notes" || fail "the scene is run as it is"
+try 60 corrugation-d
+grep -q "^run $work/scenes/corrugation-d.toml " "$work/notes" || fail "a shipped scene has a name"
 try 150
 [[ $(runs) == 1 ]] || fail "a preview that takes a third of the run is none"
 try 660 --json
