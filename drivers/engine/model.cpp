@@ -80,9 +80,9 @@ void Model::build_connectors() {
         fastening_elements(scene, foot_of_rail(scene, mesh, index), below);
     if (scene.sleepers)
       for (std::size_t i = 0; i < below.size(); ++i)
-        for (SpringDampers::Element& element :
+        for (const SpringDampers::Element& element :
              bed_elements(*scene.sleepers, scene.support(static_cast<int>(i)).bed, *below[i]))
-          elements.push_back(std::move(element));
+          elements.push_back(element);
     fastenings.emplace(std::move(elements));
   }
   if (scene.hammer && scene.rail)

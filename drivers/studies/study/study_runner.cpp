@@ -61,7 +61,7 @@ std::vector<std::string> changed_arguments(const PlannedPoint& point) {
   for (const auto& [path, value] : here) {
     const auto found = there.find(path);
     if (found == there.end() || found->second != value)
-      arguments.insert(arguments.end(), {"--set", path + "=" + value});
+      arguments.insert(arguments.end(), {"--set", fmt::format("{}={}", path, value)});
   }
   return arguments;
 }
