@@ -111,7 +111,7 @@ struct MaterialDamping {
   Stiffening all;                      ///< none where the parts have their own
   std::vector<Stiffening> parts = {};  ///< empty: `all`
 
-  /// Of the stiffness, by part, at the limit of the step dt [-].
+  /// Factors of the parts' stiffnesses at the limit of the step dt [-].
   std::vector<double> factors(double dt) const {
     std::vector<double> list;
     for (const Stiffening& part : parts) list.push_back(part.at(dt));

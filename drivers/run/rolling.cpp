@@ -189,7 +189,7 @@ void Rolling::check_disk() {
         session_->folder.path().string(), bytes_text(bytes), bytes_text(static_cast<std::int64_t>(*disk))));
 }
 
-/// Of the last sample, which may be that of an earlier process.
+/// Looks at the last sample, which may be that of an earlier process.
 void Rolling::check_penetration() {
   const StopSpec& stop = model_->scene.stop;
   if (!stop.penetration || results_->samples.empty()) return;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "drivers/engine/step_features.hpp"
 #include "drivers/engine/traction.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/growing_files.hpp"
@@ -90,6 +91,10 @@ void require_runnable(const Model& model, double dt, std::int64_t files) {
   require_way_on_rail(model);
   require_corrugation(model);
   if (!model.scene.motion) return;
+  if (dt == 0) {
+    const StepFeatures features(model, 0);  // probes lie in their bodies
+    return;
+  }
   require_disk(model, dt, files);  // which asks for the places of probes, too
   fork_step(model, dt);
 }

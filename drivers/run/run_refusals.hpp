@@ -17,8 +17,8 @@ void require_disk(const Model& model, double dt, std::int64_t files);
 
 /// Throws InputError for what a run of the model refuses although its mesh can be built: a patch that would
 /// slide, a way beyond the rail, elements that the corrugation turns inside out, probes outside of their
-/// bodies, files beyond output.disk_limit, a start too near for [forks]. `dt`: time step, 0 without [motion]
-/// [s]. `files`: file_bytes() of the scene.
+/// bodies, files beyond output.disk_limit, a start too near for [forks]. `dt`: time step; 0: not known,
+/// and what depends on it is left out [s]. `files`: file_bytes() of the scene.
 void require_runnable(const Model& model, double dt, std::int64_t files);
 
 /// InputError where results or states in the session's folder would be thrown away by mistake, or for a run

@@ -102,10 +102,10 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
   results.seconds_preload = found.seconds;
 }
 
-/// `results`: with the step of the smooth rail.
+/// `results`: with the step of the smooth rail, if that is known.
 void choose_step(const RunSession& session, const Model& model, RunResults& results) {
   const bool moved_nodes = model.scene.corrugation && model.scene.corrugation->apply == "nodes";
-  if (moved_nodes) find_step(model, results);
+  if (moved_nodes || results.dt == 0) find_step(model, results);
   session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
                                     step_count(model.scene, results.dt), results.limit.reason));
   require_disk(model, results.dt, file_bytes(session.order.scene));
@@ -172,7 +172,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
   } else {
-    find_step(model, results);
+    if (scene.output.disk_limit || scene.forks) find_step(model, results);  // takes seconds on fine meshes
     require_runnable(model, results.dt, file_bytes(session.order.scene));
     find_statics(session, made, model, results);
     if (model.contact && !scene.motion) leave_static_patch(model, results, session.folder.path());

@@ -24,6 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 using namespace samples;
 
+int times(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 class LaunchedRanks : public ProgramTest {
  protected:
   static void SetUpTestSuite() { make_root(); }
@@ -43,6 +49,18 @@ class LaunchedRanks : public ProgramTest {
 
   static std::string run(const fs::path& folder, const std::string& more = "") {
     return fmt::format("run {} -t 1 -o {} {} {}", shell_word(kTyre), folder.string(), kSize, more);
+  }
+
+  /// A run that an error ends after some samples: two ranks leave those of one process, and tell of it once.
+  void expect_the_same_end(const std::string& options, const std::string& error) const {
+    const fs::path alone = root_ / "alone";
+    EXPECT_EQ(call(run(alone, options)), 3) << errors();
+    const std::string histories = content_of(alone / "histories.csv");
+    EXPECT_EQ(call_on(2, run(folder_, options)), 3) << errors();
+    EXPECT_EQ(times(errors(), error), 1) << errors();
+    EXPECT_GT(times(histories, "\n"), 50);
+    EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
+    fs::remove_all(alone);
   }
 
   /// Starts a run on three ranks and waits until it has a checkpoint of its rolling.
@@ -154,12 +172,6 @@ TEST_F(LaunchedRanks, SharesByTimesLeaveTheFilesAlone) {
   expect_same_run(root_ / "one", folder_);
 }
 
-int times(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
   EXPECT_EQ(call_on(3, run(folder_, "--set motion.sped=3")), 2);
   EXPECT_EQ(times(errors(), "motion.sped"), 1) << errors();
@@ -186,12 +198,7 @@ TEST_F(LaunchedRanks, TheEndOfTheTreadEndsAllRanks) {
       "--set \"scene.element_size=16 mm\" --set wheel.bore=guided --set \"wheel.overhang=22 mm\" "
       "--set \"scene.gravity=0 m/s2\" --set \"motion.duration=1.5 ms\" "
       "--set \"motion.traction.torque=1000 kN m\"";
-  EXPECT_EQ(call(run(root_ / "alone", spins)), 3) << errors();
-  const std::string histories = content_of(root_ / "alone" / "histories.csv");
-  EXPECT_EQ(call_on(2, run(folder_, spins)), 3) << errors();
-  EXPECT_EQ(times(errors(), "rolls beyond its tread; lengthen wheel.overhang"), 1) << errors();
-  EXPECT_GT(times(histories, "\n"), 50);
-  EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
+  expect_the_same_end(spins, "rolls beyond its tread; lengthen wheel.overhang");
 }
 
 /// Rank 0 alone has the points of the patch. A worn rail under a narrow wheel: the wheel's edges touch it.
@@ -201,12 +208,7 @@ TEST_F(LaunchedRanks, AnErrorThatRank0AloneMeetsEndsAllRanks) {
       "--set surface.worn.kind=dent --set \"surface.worn.depth=1 mm\" --set \"surface.worn.length=80 mm\" "
       "--set \"surface.worn.width=60 mm\" --set \"surface.worn.at=0.06 m\" "
       "--set \"motion.duration=1.5 ms\"";
-  EXPECT_EQ(call(run(root_ / "worn", worn)), 3) << errors();
-  const std::string histories = content_of(root_ / "worn" / "histories.csv");
-  EXPECT_EQ(call_on(2, run(folder_, worn)), 3) << errors();
-  EXPECT_EQ(times(errors(), "the end of the surface that is searched"), 1) << errors();
-  EXPECT_GT(times(histories, "\n"), 50);
-  EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
+  expect_the_same_end(worn, "the end of the surface that is searched");
 }
 
 }  // namespace

@@ -310,7 +310,7 @@ class RanksOfAMachine final : public Ranks {
   int rank_, count_;
 };
 
-/// What is said where a mesh of so many nodes is refused; empty: it is not.
+/// Refusal of a mesh of so many nodes; empty: there is none.
 template <class Require>
 std::string refusal(const Require& require, double nodes) {
   try {

@@ -75,7 +75,7 @@ TEST(RankShares, ContactLongerThanAShareLeavesAlmostNoElements) {
   EXPECT_NEAR(evened.seconds, 0.905, 1e-12);
 }
 
-/// What such a rank takes for its connectors is no measure of its speed.
+/// The time of such a rank, its connectors', is no measure of its speed.
 TEST(RankShares, ARankWithoutWorkGetsHardlyAny) {
   std::vector<double> shares(8, 1.0 / 7), seconds(8, 300e-6);
   shares.back() = 0;
