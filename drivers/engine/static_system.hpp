@@ -51,8 +51,8 @@ struct StepLimit {
   std::size_t stiffest_block() const;
 };
 
-/// InputError where a part's damping takes more than half of the step that the mesh has without damping, by
-/// the elements alone.
+/// InputError where the beta of materials takes more than half of the step that the assembled bodies have
+/// without damping.
 void refuse_heavy_damping(const Model& model);
 
 /// InputError where refuse_heavy_damping() throws.

@@ -213,6 +213,49 @@ TEST(Bodies, HaveTheForcesOfTheSweptDisc) {
   expect_same_forces(swept, Model(with_disc(swept, scene)), 1e-5, 3e-4);
 }
 
+/// The rail's base with a layer of a tenth of the elements' length between longer ones.
+Scene with_thin_layer(const Model& model, Scene scene) {
+  const SweptBlock& block = model.mesh.blocks[index(model.index.rail_base)];
+  scene = with_base(model, std::move(scene));
+  BodySpec& base = scene.bodies.at("base");
+  HexMesh mesh = *base.mesh;
+  const int station = block.station_count() / 2;
+  for (int node = 0; node < block.section.nodes(); ++node) {
+    const double before = mesh.nodes[index((station - 1) * block.section.nodes() + node)].x;
+    double& x = mesh.nodes[index(station * block.section.nodes() + node)].x;
+    x = before + 0.1 * (x - before);
+  }
+  base.mesh = std::make_shared<const HexMesh>(std::move(mesh));
+  return scene;
+}
+
+/// Thicker neighbours hold a thin layer's nodes back, so that it limits the step less than it does alone.
+TEST(Bodies, DampingIsRefusedByAssembledElements) {
+  const Scene even = wheelset_scene({});
+  Scene scene = with_thin_layer(Model(even), even);
+  for (auto& [name, material] : scene.materials) material.high_frequency_fraction = 0;
+  const StepLimit undamped = step_limit(Model(scene));
+  const double of_element = undamped.stiffest[undamped.stiffest_block()].step;
+  ASSERT_GT(undamped.stable_step, 2 * of_element);
+  Material& steel = scene.materials.at("steel");
+  const auto limit_with = [&](double beta) {
+    steel.rayleigh_beta = beta;
+    return step_limit(Model(scene));
+  };
+  EXPECT_GT(limit_with(0.7 * undamped.stable_step).stable_step, 0.5 * undamped.stable_step);
+  try {
+    limit_with(0.9 * undamped.stable_step);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    const std::string words = "rayleigh_beta of at most ";
+    ASSERT_NE(text.find(words), std::string::npos) << text;
+    const double advised = std::stod(text.substr(text.find(words) + words.size()));
+    EXPECT_GT(advised, 0.7 * undamped.stable_step) << text;
+    EXPECT_GT(limit_with(advised).stable_step, 0.49 * undamped.stable_step);
+  }
+}
+
 Scene with_both(const Model& model, Scene scene) {
   return with_base(model, with_disc(model, std::move(scene)));
 }
