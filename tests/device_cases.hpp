@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/run_results.hpp"
 #include "kernels/device/device.hpp"
 #include "tests/state_copies.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "drivers/engine/rank_forces.hpp"
-#include "drivers/engine/rank_shares.hpp"
+#include "drivers/engine/ranks/rank_forces.hpp"
+#include "drivers/engine/ranks/rank_shares.hpp"
 
 namespace tread {
 

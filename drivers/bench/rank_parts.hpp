@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/rank_cut.hpp"
-#include "drivers/engine/shared_groups.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/ranks/rank_cut.hpp"
+#include "drivers/engine/ranks/shared_groups.hpp"
 
 namespace tread {
 

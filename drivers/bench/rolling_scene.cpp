@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "core/error.hpp"
-#include "drivers/engine/start.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/start.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/preload_cache.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 // A scene brought to the first step of its motion.
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/process/progress.hpp"
 #include "io/scene/scene_reader.hpp"
 

@@ -2,7 +2,7 @@
 // Arithmetic and memory traffic of a step's phases.
 
 #include "drivers/bench/limits.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/engine/phase_clock.hpp"
 
 namespace tread {

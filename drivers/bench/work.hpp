@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/mesh/swept_block.hpp"
-#include "drivers/engine/node_fields.hpp"
+#include "drivers/engine/fields/node_fields.hpp"
 
 namespace tread {
 

@@ -8,7 +8,7 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/program_name.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/process/launched_ranks.hpp"
 #include "drivers/process/version.hpp"
 #include "io/scene/schema.hpp"

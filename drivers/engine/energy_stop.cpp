@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 
 namespace tread {
 

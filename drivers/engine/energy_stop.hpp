@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 
 namespace tread {
 

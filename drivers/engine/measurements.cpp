@@ -6,8 +6,8 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "drivers/engine/attachments.hpp"
-#include "drivers/engine/rail_foot.hpp"
+#include "drivers/engine/model/attachments.hpp"
+#include "drivers/engine/model/rail_foot.hpp"
 #include "drivers/engine/sampling.hpp"
 #include "kernels/blocks/internal_force.hpp"
 

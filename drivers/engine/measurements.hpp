@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/channel.hpp"
-#include "drivers/engine/body_point.hpp"
 #include "drivers/engine/features/feature.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/body_point.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
 namespace tread {

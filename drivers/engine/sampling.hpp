@@ -5,7 +5,7 @@
 
 #include "drivers/engine/energy_watch.hpp"
 #include "drivers/engine/features/feature.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 
 namespace tread {
 

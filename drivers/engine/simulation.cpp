@@ -3,11 +3,11 @@
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/energy_stop.hpp"
-#include "drivers/engine/featured_nodes.hpp"
-#include "drivers/engine/start.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/fields/chosen_fields.hpp"
+#include "drivers/engine/fields/featured_nodes.hpp"
+#include "drivers/engine/start/start.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 
 namespace tread {
 

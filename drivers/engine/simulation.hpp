@@ -6,10 +6,10 @@
 
 #include "core/body_frame.hpp"
 #include "core/state_list.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/node_fields.hpp"
+#include "drivers/engine/fields/node_fields.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/engine/phase_clock.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/engine/step_features.hpp"
 
 namespace tread {

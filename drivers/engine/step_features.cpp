@@ -10,8 +10,8 @@
 #include "drivers/engine/features/torque.hpp"
 #include "drivers/engine/features/wheel_load.hpp"
 #include "drivers/engine/features/wheel_rail_contact.hpp"
-#include "drivers/engine/maxwell_branches.hpp"
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/model/maxwell_branches.hpp"
+#include "drivers/engine/start/traction.hpp"
 
 namespace tread {
 

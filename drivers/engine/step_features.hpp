@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/engine/bodies.hpp"
 #include "drivers/engine/features/feature.hpp"
 #include "drivers/engine/features/surface_record.hpp"
 #include "drivers/engine/features/vehicle.hpp"
 #include "drivers/engine/features/wheel_motion.hpp"
+#include "drivers/engine/fields/bodies.hpp"
 #include "drivers/engine/measurements.hpp"
 #include "drivers/engine/sampling.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Figures of a run's report on the values that its scene asks for, and the spectrum of F_N.
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
 

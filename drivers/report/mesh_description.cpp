@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/frame_files.hpp"

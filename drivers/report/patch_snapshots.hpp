@@ -8,7 +8,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/scene.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "io/report/report.hpp"
 

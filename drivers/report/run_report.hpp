@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/report/provenance.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/scene/scene_reader.hpp"

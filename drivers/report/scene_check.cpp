@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/device_movers.hpp"
-#include "drivers/engine/surfaces.hpp"
+#include "drivers/engine/device/device_movers.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/estimate.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/estimate.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The rail's surface and the moving patch in a run's report.
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "drivers/engine/sections.hpp"
-#include "drivers/engine/surfaces.hpp"
+#include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 #include "drivers/results/way_warnings.hpp"
 #include "io/scene/resolving_size.hpp"
 

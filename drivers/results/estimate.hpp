@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/disk_use.hpp"
 
 namespace tread {

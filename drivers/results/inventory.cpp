@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "drivers/engine/node_fields.hpp"
+#include "drivers/engine/fields/node_fields.hpp"
 #include "drivers/engine/step_features.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "io/report/plain_text.hpp"

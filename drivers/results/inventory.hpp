@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "io/report/report.hpp"
 
 namespace tread {

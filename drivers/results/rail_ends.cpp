@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/travel.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "io/scene/rail_reach.hpp"
 
 namespace tread {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 
 namespace tread {
 

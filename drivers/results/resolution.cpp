@@ -10,9 +10,9 @@
 
 #include "core/geometry/point_scatter.hpp"
 #include "core/mesh/structured.hpp"
-#include "drivers/engine/body_point.hpp"
-#include "drivers/engine/lateral_gap.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/body_point.hpp"
+#include "drivers/engine/model/lateral_gap.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/results/depth_warnings.hpp"
 #include "drivers/results/way_warnings.hpp"
 #include "io/scene/resolving_size.hpp"

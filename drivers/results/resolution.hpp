@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 
 namespace tread {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "drivers/engine/evaluated_stretch.hpp"
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "drivers/results/run_results.hpp"
 
 namespace tread {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/math/statistics.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/measured_rows.hpp"
 #include "drivers/results/patch_file.hpp"

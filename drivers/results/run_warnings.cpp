@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <set>
 
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 
 namespace tread {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {

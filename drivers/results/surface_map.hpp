@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "io/report/relief.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/travel.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/results/rail_ends.hpp"
 #include "io/scene/rail_reach.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/parallel/ranks.hpp"
-#include "drivers/engine/rank_shares.hpp"
+#include "drivers/engine/ranks/rank_shares.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/run/rank_clock.hpp"
 #include "drivers/run/run_options.hpp"

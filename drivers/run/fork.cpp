@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/results/rail_ends.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/travel.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "io/files/content_cache.hpp"
 #include "io/scene/scene_reader.hpp"
 

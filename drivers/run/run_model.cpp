@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "drivers/engine/device_movers.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/device/device_movers.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "io/report/plain_text.hpp"
 #include "kernels/device/device.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The model of a run, as a process that goes on with the run makes it.
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "drivers/engine/step_features.hpp"
-#include "drivers/engine/traction.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/results/rail_ends.hpp"

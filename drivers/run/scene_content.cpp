@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/math/hash.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/process/version.hpp"
 #include "io/files/output_file.hpp"
 #include "io/scene/schema.hpp"

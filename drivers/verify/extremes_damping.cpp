@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/small_models.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/small_models.hpp"
 

@@ -9,10 +9,10 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/beam/beam_passage.hpp"
-#include "drivers/engine/rail_beam.hpp"
-#include "drivers/engine/run_in.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
+#include "drivers/engine/start/run_in.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
 #include "drivers/verify/force_harmonics.hpp"

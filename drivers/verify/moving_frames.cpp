@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/math/hertz.hpp"
 #include "core/mesh/structured.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
 #include "io/scene/scene_reader.hpp"

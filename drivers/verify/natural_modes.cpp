@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/static_system.hpp"
 #include "kernels/solver/lowest_modes.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 

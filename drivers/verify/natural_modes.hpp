@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/start/preload.hpp"
 
 namespace tread {
 

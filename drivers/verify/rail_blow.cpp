@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 
 namespace tread {
 

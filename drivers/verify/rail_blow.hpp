@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/math/receptance.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 
 namespace tread {
 

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
-#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/rail_blow.hpp"
 #include "io/scene/scene_reader.hpp"

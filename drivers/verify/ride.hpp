@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/verify/verify_case.hpp"
 #include "io/report/report.hpp"

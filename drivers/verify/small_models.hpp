@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 
 namespace tread {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/surfaces.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
 #include "kernels/half_space/half_space.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/math/hertz.hpp"
 #include "core/scene.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/verify/verify_case.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "io/report/report.hpp"
 #include "io/text/units.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/free_wheelset.hpp"
 #include "kernels/harmonics/harmonic_solid.hpp"

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/device_movers.hpp"
+#include "drivers/engine/device/device_movers.hpp"
 #include "drivers/run/run_model.hpp"
 #include "io/report/plain_text.hpp"
 #include "tests/device_cases.hpp"

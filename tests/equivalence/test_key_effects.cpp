@@ -17,9 +17,9 @@
 
 #include "core/geometry/built_in_profiles.hpp"
 #include "core/math/hash.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
 #include "io/scene/scene_reader.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

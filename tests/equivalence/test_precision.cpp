@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/run_results.hpp"
 #include "tests/state_copies.hpp"
 #include "tests/tyre_scene.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/scene/scene_reader.hpp"
 

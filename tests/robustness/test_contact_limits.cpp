@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/rail_ends.hpp"
 #include "tests/tyre_scene.hpp"
 

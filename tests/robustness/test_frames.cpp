@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "io/files/hdf5_file.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/start.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/start.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/bar_scene.hpp"
 

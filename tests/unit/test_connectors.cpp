@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/mesh/structured.hpp"
-#include "drivers/engine/attachments.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/rail_foot.hpp"
+#include "drivers/engine/model/attachments.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/model/rail_foot.hpp"
 #include "kernels/blocks/time_update.hpp"
 #include "kernels/connectors/connectors.hpp"
 #include "kernels/update/body_motion.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/mesh/structured.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/deflection.hpp"
 #include "tests/tyre_scene.hpp"
 

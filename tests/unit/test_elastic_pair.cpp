@@ -6,8 +6,8 @@
 
 #include "core/math/elastic_pair.hpp"
 #include "core/math/hertz.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "kernels/connectors/guided_bore.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "kernels/element/element.hpp"

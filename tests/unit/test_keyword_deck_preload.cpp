@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/studies/export/deck_start.hpp"
 #include "kernels/element/element.hpp"
 #include "tests/exported_deck.hpp"

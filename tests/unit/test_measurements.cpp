@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/measured_rows.hpp"
 #include "tests/swept_samples.hpp"
 #include "tests/tyre_scene.hpp"

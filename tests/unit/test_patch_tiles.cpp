@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/index.hpp"
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/patch_tiles.hpp"
+#include "drivers/engine/fields/patch_tiles.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

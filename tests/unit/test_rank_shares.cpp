@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "drivers/engine/rank_shares.hpp"
+#include "drivers/engine/ranks/rank_shares.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

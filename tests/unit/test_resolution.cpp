@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "io/scene/resolving_size.hpp"

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/math/spectrum.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/report/energy_tables.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/report/measurement_figures.hpp"

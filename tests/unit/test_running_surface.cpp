@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/running_surface.hpp"
-#include "drivers/engine/surfaces.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 
 namespace tread {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/geometry/built_in_profiles.hpp"
-#include "drivers/engine/rail_beam.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

@@ -10,7 +10,7 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/solver/stable_step.hpp"
 #include "tests/section_quality.hpp"

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/attachments.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
-#include "drivers/engine/preload.hpp"
-#include "drivers/engine/rail_foot.hpp"
+#include "drivers/engine/model/attachments.hpp"
+#include "drivers/engine/model/rail_foot.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

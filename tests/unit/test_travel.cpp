@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/travel.hpp"
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {

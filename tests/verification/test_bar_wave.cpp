@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/blocks/time_update.hpp"

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "drivers/engine/energy_watch.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/small_models.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/solver/stable_step.hpp"

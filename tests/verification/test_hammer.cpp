@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/math/receptance.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/rail_blow.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/verified_case.hpp"

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/small_models.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"

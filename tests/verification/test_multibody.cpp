@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/mesh/rail_section.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/studies/multibody/local_parts.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "drivers/studies/multibody/solid_rail.hpp"

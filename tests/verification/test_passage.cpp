@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"
 

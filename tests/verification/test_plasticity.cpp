@@ -12,9 +12,9 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/material/laws.hpp"
 #include "tests/measured.hpp"

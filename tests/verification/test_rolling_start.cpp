@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/preload.hpp"
 #include "drivers/results/measured_rows.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"

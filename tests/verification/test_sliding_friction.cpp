@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "core/aligned.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "kernels/contact/patch_solver.hpp"
 #include "tests/measured.hpp"
 #include "tests/temporary_folder.hpp"

@@ -9,8 +9,8 @@
 #include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/engine/beam/beam_section.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
-#include "drivers/engine/rail_beam.hpp"
-#include "drivers/engine/run_in.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
+#include "drivers/engine/start/run_in.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 

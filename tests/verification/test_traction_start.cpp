@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/step_limit.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "drivers/engine/beam/track_beam.hpp"
-#include "drivers/engine/preload.hpp"
-#include "drivers/engine/rail_beam.hpp"
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/preload.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 

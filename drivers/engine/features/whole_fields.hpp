@@ -31,7 +31,7 @@ class WholeFields {
   /// Their gravity potential [J].
   virtual double fixed_gravity_potential() = 0;
   /// The mean of both half steps' kinetic energies less the product that the energy balance has, at the end
-  /// of a measured step [J]. [drivers/engine/energy_sums.hpp]
+  /// of a measured step [J]. [drivers/engine/fields/energy_sums.hpp]
   virtual double half_step_excess(double dt) = 0;
   /// SpinningBody's of the same names, for the wheel. `wheel`: its frame at the time of the displacements.
   virtual MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) = 0;

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/run/scene_content.hpp"

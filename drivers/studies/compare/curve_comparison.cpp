@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/text.hpp"
 #include "io/text/units.hpp"

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
 #include "core/travel.hpp"
-#include "drivers/engine/sections.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 
 namespace tread {
 

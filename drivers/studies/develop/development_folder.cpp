@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/studies/develop/passage_room.hpp"
 #include "drivers/studies/study/finished_run.hpp"

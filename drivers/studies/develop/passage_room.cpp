@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/scene/schema.hpp"

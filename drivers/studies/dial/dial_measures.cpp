@@ -6,7 +6,7 @@
 
 #include "core/math/interpolation.hpp"
 #include "core/math/statistics.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/results/run_results.hpp"
 
 namespace tread {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/studies/export/deck_options.hpp"
 
 namespace tread {

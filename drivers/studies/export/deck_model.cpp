@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "drivers/engine/simulation.hpp"
-#include "drivers/engine/start.hpp"
+#include "drivers/engine/start/start.hpp"
 #include "drivers/results/frame_files.hpp"
 
 namespace tread {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "drivers/engine/traction.hpp"
+#include "drivers/engine/start/traction.hpp"
 #include "drivers/studies/export/deck_start.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/model/lateral_gap.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/preload_cache.hpp"

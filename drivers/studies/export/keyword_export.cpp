@@ -7,7 +7,7 @@
 
 #include "core/contract.hpp"
 #include "core/error.hpp"
-#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/start/step_limit.hpp"
 #include "drivers/studies/export/deck_bodies.hpp"
 #include "drivers/studies/export/deck_limits.hpp"
 #include "drivers/studies/export/deck_model.hpp"

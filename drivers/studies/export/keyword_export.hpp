@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/model/model.hpp"
 #include "drivers/studies/export/deck_model.hpp"
 #include "drivers/studies/export/deck_options.hpp"
 #include "io/deck/keyword_deck.hpp"

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
 #include "core/parallel/each_item.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/model_difference.hpp"

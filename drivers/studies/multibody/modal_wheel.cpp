@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "kernels/harmonics/harmonic_solid.hpp"
 
 namespace tread {

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
-#include "drivers/engine/lateral_gap.hpp"
-#include "drivers/engine/rail_beam.hpp"
-#include "drivers/engine/sections.hpp"
-#include "drivers/engine/surfaces.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/model/lateral_gap.hpp"
+#include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/model/surfaces.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "kernels/half_space/half_space.hpp"
 
 namespace tread {

@@ -8,7 +8,7 @@
 #include "core/corrugation.hpp"
 #include "core/math/hertz.hpp"
 #include "core/running_surface.hpp"
-#include "drivers/engine/station_plan.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/studies/multibody/modal_passage.hpp"
 
 namespace tread {

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 
 namespace tread {
 

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel/each_item.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/multibody/local_parts.hpp"
 #include "drivers/studies/multibody/model_difference.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/engine/rail_beam.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "kernels/harmonics/harmonic_solid.hpp"
 
 namespace tread {

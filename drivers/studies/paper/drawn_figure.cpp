@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
-#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/results/growing_files.hpp"

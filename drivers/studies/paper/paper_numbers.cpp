@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "drivers/studies/paper/curve_measures.hpp"
 #include "drivers/studies/paper/paper_figures.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/text/text_file.hpp"
 

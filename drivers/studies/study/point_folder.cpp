@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/process/machine.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/output_file.hpp"

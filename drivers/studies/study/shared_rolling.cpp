@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "drivers/engine/sections.hpp"
+#include "drivers/engine/model/sections.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/files/checkpoint_folder.hpp"
 
