@@ -11,6 +11,11 @@ if(NOT TREAD_CUDA STREQUAL "OFF")
   find_package(CUDAToolkit 12 QUIET) # the first one that knows C++20
   file(GLOB cards /dev/nvidia[0-9]*)
 endif()
+if(NOT CUDAToolkit_FOUND) # the place of an older nvcc would be kept, too
+  unset(CUDAToolkit_NVCC_EXECUTABLE CACHE)
+  unset(CUDAToolkit_BIN_DIR CACHE)
+  set(CUDAToolkit_NVCC_EXECUTABLE "")
+endif()
 set(fault "")
 if(NOT CUDAToolkit_NVCC_EXECUTABLE)
   set(fault "there is no nvcc of CUDA 12 or later; install it")

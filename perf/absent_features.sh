@@ -7,6 +7,7 @@
 # as not present, which must cost nothing (0.5 %) and leave the same state, and then given a value, which shows what it
 # costs. Two runs of different length each: their difference is free of what is done once. Exits 3 where a bound fails.
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/callgrind.sh"

@@ -4,6 +4,7 @@
 #
 #   perf/plastic_head.sh PROGRAM [REPEATS]     on a quiet machine; two minutes
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 
 here=$(cd "$(dirname "$0")" && pwd)
 program=${1:?which program? see the head of this file}

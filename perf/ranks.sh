@@ -3,6 +3,7 @@
 # one, in turn, ROUNDS times over; prints times of rolling [s], their ratio and the traffic of a step; checks the state
 # hashes. The preload comes from a cache after the first run.
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 [[ $# -ge 3 && $1 != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit; }
 tread=$1 scene=$2 rounds=$3
 shift 3

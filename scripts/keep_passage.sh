@@ -2,6 +2,7 @@
 # scripts/keep_passage.sh RUN DIR: keeps of the finished run RUN what `tread dial --reference DIR` and a reader want: summary,
 # scene, the main columns of its histories and the patch's axis on the rail, to seven digits.
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 run=${1:?which run? see the head of this file}
 kept=${2:?which folder? see the head of this file}

@@ -6,6 +6,7 @@
 # A card cannot call a function that is neither constexpr nor TREAD_BODY. From a constexpr one nvcc lets it, says
 # nothing, and leaves out the kernel that would get there.
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 "$@" -Xptxas -v 2>"$log" || { grep -v '^ptxas info' "$log" >&2; exit 1; }

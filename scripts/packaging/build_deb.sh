@@ -14,9 +14,8 @@ shift || true
 mkdir -p "$build" "$folder"
 
 # The program of the package finds its data beside itself alone, and names no folder of this machine.
-cd "$root"
-logged "$build/configure.log" cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_RPATH=ON \
-  -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON -DTREAD_SOURCE_SHARE= -DTREAD_MPI=OFF "$@" || die "The build cannot be configured."
+configure "$build/configure.log" "$build" --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_RPATH=ON \
+  -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON -DTREAD_SOURCE_SHARE= -DTREAD_MPI=OFF "$@"
 logged "$build/build.log" cmake --build "$build" --target tread || die "The build failed."
 (cd "$build" && logged "$build/cpack.log" cpack -G DEB -B "$folder") || die "The package cannot be made."
 rm -rf "$folder/_CPack_Packages"

@@ -3,6 +3,7 @@
 # random times KILLS times over (by SIGKILL; every third time by SIGTERM) and resumed on one or two threads, and
 # compares the files. KILLS_LONGEST: longest time between two kills [s], by default that of the whole run.
 set -euo pipefail
+export LC_ALL=C # numbers with a decimal point
 tread=$1 scene=$2 kills=$3
 shift 3
 command -v h5diff >/dev/null || { echo "there is no h5diff; the Debian package hdf5-tools has it"; exit 1; }
