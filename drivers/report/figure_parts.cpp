@@ -42,19 +42,12 @@ Figure over_the_way(std::string name, std::string title, const Model& model, con
   return figure;
 }
 
-Series running_surface(const Corrugation& corrugation, const Range& range) {
-  Series series{"running surface", {}, {}, Stroke::solid};
-  constexpr int kPoints = 800;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double x = range[0] + (range[1] - range[0]) * i / kPoints;
-    series.x.push_back(x);
-    series.y.push_back(-1e3 * corrugation.depth(x, corrugation.centre()));
-  }
-  return series;
+ShownSurfaces shown_surfaces(const Model& model, double y) {
+  const SurfacePair& pair = model.contact->surfaces();
+  return {pair.corrugation(), pair.rail_depth(), pair.wheel_depth(), y};
 }
 
-std::vector<Series> running_surfaces(const Model& model, double y, const Range& range) {
-  const SurfacePair& pair = model.contact->surfaces();
+std::vector<Series> running_surfaces(const ShownSurfaces& surfaces, const Range& range) {
   std::vector<Series> list;
   const auto add = [&](const char* name, const auto& depth) {
     constexpr int kPoints = 800;
@@ -66,11 +59,18 @@ std::vector<Series> running_surfaces(const Model& model, double y, const Range& 
     }
     list.push_back(std::move(series));
   };
-  if (!pair.corrugation().smooth() || !pair.rail_depth().smooth())
-    add("rail's surface", [&](double x) { return pair.depth_at(x, y); });
-  if (!pair.wheel_depth().smooth())
-    add("wheel's surface that meets it", [&](double x) { return pair.wheel_depth().at(x, y).depth; });
+  const SurfaceDepths depths{surfaces.corrugation.view(), surfaces.rail.view(), surfaces.wheel.view()};
+  if (!surfaces.corrugation.smooth() || !surfaces.rail.smooth())
+    add("rail's surface", [&](double x) { return depths.rail(x, surfaces.y); });
+  if (!surfaces.wheel.smooth())
+    add("wheel's surface that meets it",
+        [&](double x) { return depths.wheel_depth.at(x, surfaces.y).depth; });
   return list;
+}
+
+void add_surface_panel(const ShownSurfaces& surfaces, double height, Figure& figure) {
+  if (std::vector<Series> series = running_surfaces(surfaces, *figure.x_range); !series.empty())
+    figure.panels.push_back(panel("Surface [mm]", std::move(series), {}, height));
 }
 
 Range stretch_in_sight(const Model& model, const Range& way) {

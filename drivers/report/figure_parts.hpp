@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/corrugation.hpp"
+#include "core/running_surface.hpp"
 #include "drivers/engine/model/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
@@ -16,12 +18,21 @@ Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker>
 void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure);
 void mark_track(const Model& model, const Range& range, Figure& figure);
 
-/// Height of the corrugated surface on its deepest line [mm].
-Series running_surface(const Corrugation& corrugation, const Range& range);
+/// Depths of both running surfaces, and the line across on which a figure shows them.
+struct ShownSurfaces {
+  Corrugation corrugation;
+  RunningSurface rail{};  ///< besides the corrugation
+  RunningSurface wheel{};
+  double y = 0;  ///< [m]
+};
+ShownSurfaces shown_surfaces(const Model& model, double y);
 
-/// Heights of the rail's surface at y [m] and of that part of the wheel's that meets it [mm]; smooth ones are
-/// left out.
-std::vector<Series> running_surfaces(const Model& model, double y, const Range& range);
+/// Heights of the rail's surface and of that part of the wheel's that meets it [mm]; smooth ones are left
+/// out.
+std::vector<Series> running_surfaces(const ShownSurfaces& surfaces, const Range& range);
+
+/// Adds a panel of them over the figure's x_range [m], if there are any.
+void add_surface_panel(const ShownSurfaces& surfaces, double height, Figure& figure);
 
 /// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);

@@ -8,8 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "drivers/report/figure_parts.hpp"
-
 namespace tread {
 
 namespace {
@@ -120,9 +118,7 @@ Figure snapshots_figure(const PatchSnapshots& instants) {
     shear.push_back(std::move(series));
   }
   figure.panels.push_back(panel("Shear stress [MPa]", std::move(shear), {}, 190));
-  if (!instants.corrugation.smooth())
-    figure.panels.push_back(
-        panel("Rail surface [mm]", {running_surface(instants.corrugation, *figure.x_range)}, {}, 70));
+  add_surface_panel(instants.surfaces, 70, figure);
   figure.caption = "Nodal averages. The rail slips where the shear stress meets f p.";
   if (instants.contact.friction_law != "coulomb")
     figure.caption =

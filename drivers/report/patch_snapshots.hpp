@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/corrugation.hpp"
 #include "core/scene.hpp"
 #include "drivers/engine/model/station_plan.hpp"
+#include "drivers/report/figure_parts.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "io/report/report.hpp"
 
@@ -34,7 +34,7 @@ struct PatchSnapshots {
   PatchAxes axes;
   int axis_row = 0;     ///< the patch's longitudinal axis, of axes.y
   ContactSpec contact;  ///< of the scene
-  Corrugation corrugation;
+  ShownSurfaces surfaces;
   std::vector<PatchSample> samples;
 };
 

@@ -77,8 +77,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
              curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
             {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
   const double patch_y = r.preload.contact.centre.y;
-  if (std::vector<Series> surfaces = running_surfaces(model, patch_y, *figure.x_range); !surfaces.empty())
-    figure.panels.push_back(panel("Surface [mm]", std::move(surfaces), {}, 90));
+  add_surface_panel(shown_surfaces(model, patch_y), 90, figure);
   figure.caption += fmt::format("Where F_L meets f F_N the whole patch slides. f = {:g}", f);
   figure.caption += scene.contact->friction_law == "coulomb" ? "." : ", the largest coefficient of friction.";
   return figure;
@@ -147,36 +146,27 @@ Figure patch_figure(const Model& model, const RunResults& r) {
 Figure energy_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("energy", "Energy by kind, change since the start", model, r);
   const EnergyLedger& start = r.samples.front().energy;
-  const auto kind = [&](const char* label, double EnergyLedger::*member, Stroke stroke = Stroke::solid) {
-    return curve(
-        label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; },
-        stroke);
-  };
   // The torque's work and what it makes of the speed dwarf everything else: a panel of their own.
   std::vector<Series> large;
   std::vector<Series> small;
-  (model.torque.empty() ? small : large).push_back(kind("kinetic", &EnergyLedger::kinetic));
-  if (!model.torque.empty())
-    large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
-  small.push_back(kind("strain", &EnergyLedger::strain));
-  if (model.scene.gravity != 0 || model.scene.load) small.push_back(kind("gravity", &EnergyLedger::gravity));
-  if (model.hammer) small.push_back(kind("work of the hammer", &EnergyLedger::hammer_work, Stroke::dashed));
-  if (model.contact) small.push_back(kind("frictional work", &EnergyLedger::frictional_work, Stroke::dashed));
-  if (model.fastenings || model.scene.vehicle) {
-    small.push_back(kind("springs", &EnergyLedger::connectors));
-    small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
+  const bool turned = model.guide || !model.torque.empty();
+  for (const EnergyKind& kind : kEnergyKinds) {
+    const Stroke stroke = kind.role == EnergyRole::stored ? Stroke::solid : Stroke::dashed;
+    Series change = curve(
+        kind.title, model, r, [&](const Sample& s) { return s.energy.*kind.member - start.*kind.member; },
+        stroke);
+    if (std::ranges::all_of(change.y, [](double joule) { return joule == 0; })) continue;
+    const bool driven = kind.member == &EnergyLedger::kinetic || kind.role == EnergyRole::supplied;
+    (turned && driven ? large : small).push_back(std::move(change));
   }
-  if (model.has_branches()) small.push_back(kind("material", &EnergyLedger::material_loss, Stroke::dashed));
-  if (has_laws(model.mesh))
-    small.push_back(kind("plastic work", &EnergyLedger::plastic_work, Stroke::dashed));
   if (!large.empty()) figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
-  figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
+  if (!small.empty()) figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
   figure.panels.push_back(
       panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })},
             {}, 110));
-  figure.caption += model.contact ? "Residual: stored and dissipated energy less the work of torque and "
-                                    "hammer and the energy at the start."
-                                  : "Residual: the sum less that at the start.";
+  figure.caption +=
+      "Energies that do not change are left out. Residual: the sum of all, works of torque, guide and hammer "
+      "taken off.";
   return figure;
 }
 

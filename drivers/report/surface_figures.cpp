@@ -58,7 +58,6 @@ std::vector<Layer> stick_and_slip(const PatchAxes& surface, const PatchSample& s
 
 Figure surface_figure(const Model& model, const RunResults& r) {
   const SurfaceResults& s = r.surface;
-  const Corrugation& corrugation = model.contact->corrugation();
   Figure figure;
   figure.name = "surface";
   figure.title = "Largest stresses and frictional work of the passage on the patch's longitudinal axis";
@@ -80,9 +79,7 @@ Figure surface_figure(const Model& model, const RunResults& r) {
                  "by samples", s, [](const AxisNode& n) { return 1e3 * kWorkCell * n.sampled_work; },
                  Stroke::dotted)},
             {}, 170));
-  if (!corrugation.smooth())
-    figure.panels.push_back(
-        panel("Rail surface [mm]", {running_surface(corrugation, *figure.x_range)}, {}, 90));
+  add_surface_panel(shown_surfaces(model, s.axis_y), 90, figure);
   figure.caption += fmt::format(
       "On the row of nodes at y = {:.1f} mm. Von Mises stress: centres of the row of surface elements that "
       "carries the largest, at samples. "
@@ -93,8 +90,8 @@ Figure surface_figure(const Model& model, const RunResults& r) {
 }
 
 Figure snapshots_figure(const Model& model, const RunResults& r) {
-  Figure figure = snapshots_figure(
-      {axes(model), r.surface.axis_row, *model.scene.contact, model.contact->corrugation(), r.instants});
+  Figure figure = snapshots_figure({axes(model), r.surface.axis_row, *model.scene.contact,
+                                    shown_surfaces(model, r.surface.axis_y), r.instants});
   figure.name = "patch-instants";
   return figure;
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "drivers/engine/fields/chosen_fields.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/run_results.hpp"
 

@@ -15,8 +15,7 @@ bool lies_between(const Sample& sample, double first, double last) {
 
 SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last) {
   SampleIntervals intervals;
-  // The last sample is that of the last step.
-  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+  for (std::size_t i = 1; i < samples.size(); ++i) {
     if (!lies_between(samples[i - 1], first, last) || !lies_between(samples[i], first, last)) continue;
     const double interval = samples[i].time - samples[i - 1].time;
     intervals.least = intervals.most == 0 ? interval : std::min(intervals.least, interval);
@@ -26,10 +25,8 @@ SampleIntervals sample_intervals(const std::vector<Sample>& samples, double firs
 }
 
 ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last, double dt) {
-  constexpr std::size_t kLeast = 16;      // samples
-  constexpr double kWaves = 4;            // in the stretch, at least
-  constexpr double kSamplesInWave = 2.5;  // at least
-  constexpr double kHighest = 20e3;       // [Hz]
+  constexpr std::size_t kLeast = 16;  // samples
+  constexpr double kHighest = 20e3;   // [Hz]
   std::vector<double> force;
   double begin = 0;
   double end = 0;
@@ -50,7 +47,7 @@ ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, d
   const double highest = std::min(kHighest, 1 / (kSamplesInWave * interval));
   const auto lines = static_cast<std::size_t>(highest / spectrum.spacing) + 2;
   spectrum.square = power_lines(force, std::min(lines, force.size() / 2 + 1));
-  spectrum.bands = third_octaves(kWaves * spectrum.spacing, highest);
+  spectrum.bands = third_octaves(kWavesInRecord * spectrum.spacing, highest);
   for (const ThirdOctave& band : spectrum.bands)
     spectrum.rms.push_back(std::sqrt(band_power(spectrum.square, spectrum.spacing, band.low(), band.high())));
   return spectrum;

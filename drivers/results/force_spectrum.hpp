@@ -23,7 +23,7 @@ struct SampleIntervals {
   bool even(double dt) const { return most - least < 1.5 * dt; }
 };
 
-/// Intervals of the samples with the wheel between two places [m], the last of all aside.
+/// Intervals of the samples with the wheel between two places [m].
 SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last);
 
 /// Spectrum of F_N with the wheel between two places [m] for the first time, in steps of dt [s]; without

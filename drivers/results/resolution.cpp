@@ -168,6 +168,41 @@ std::string stress_depth_warning(const Model& model) {
       1e3 * *deepest, std::ceil(1e5 * quads.front().depth) / 100);
 }
 
+/// Compliances of a slab on its mortar at a point [m/N].
+struct SlabCompliance {
+  double sheared;  ///< of nodes that move vertically
+  double bent;     ///< of a Timoshenko beam
+};
+
+/// Both on a Winkler layer, without ends.
+SlabCompliance slab_compliance(const Material& concrete, const Material& mortar, const SlabSpec& slab) {
+  const double bed =
+      (mortar.lame_lambda() + 2 * mortar.shear_modulus()) * slab.width / slab.mortar_thickness;    // [N/m2]
+  const double shear = concrete.shear_modulus() * slab.width * slab.thickness;                     // G A [N]
+  const double bending = concrete.youngs_modulus * slab.width * std::pow(slab.thickness, 3) / 12;  // [N m2]
+  const double root = std::sqrt(bed / shear + 2 * std::sqrt(bed / bending));                       // [1/m]
+  return {0.5 / std::sqrt(bed * shear), 0.5 / root * (1 / std::sqrt(bed * bending) + 1 / shear)};
+}
+
+/// Sentence where the slab lies so softly that bending, which it lacks, would show under the fastenings.
+std::string slab_warning(const Scene& scene) {
+  constexpr double kTellingShare = 0.01;  // of a fastening's compliance
+  if (!scene.slab_track || !scene.fastenings) return "";
+  const SlabSpec& slab = *scene.slab_track;
+  const Material& mortar = scene.material(slab.mortar_material);
+  const SlabCompliance compliance = slab_compliance(scene.material(slab.material), mortar, slab);
+  const double fastening = 1 / scene.fastenings->stiffness;
+  const double missing = (compliance.bent - compliance.sheared) / fastening;
+  if (missing <= kTellingShare) return "";
+  return fmt::format(
+      "[slab] is too stiff on its layer of material.{}.youngs_modulus = {:.4g} MPa: its nodes move "
+      "vertically, so that it shears and does not bend; it gives way by {:.2g} m/N under a fastening, a slab "
+      "that bends by {:.2g} m/N, and the difference is {:.2g} % of a fastening's {:.2g} m/N, above {:g} %; "
+      "state a stiffer layer, or [sleepers] on a soft bed in place of the slab",
+      mortar.name, 1e-6 * mortar.youngs_modulus, compliance.sheared, compliance.bent, 100 * missing,
+      fastening, 100 * kTellingShare);
+}
+
 void add_contact_warnings(const Model& model, std::vector<std::string>& warnings) {
   const WheelSpec& wheel = *model.scene.wheel;
   const RailSpec& rail = *model.scene.rail;
@@ -190,7 +225,8 @@ std::optional<double> too_few_elements_across_patch(const Model& model) {
 }
 
 std::vector<std::string> resolution_warnings(const Model& model) {
-  std::vector<std::string> warnings = {history_warning(model.scene), hammer_warning(model)};
+  std::vector<std::string> warnings = {history_warning(model.scene), hammer_warning(model),
+                                       slab_warning(model.scene)};
   if (model.contact) add_contact_warnings(model, warnings);
   std::erase(warnings, "");
   return warnings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "drivers/engine/model/evaluated_stretch.hpp"
@@ -101,7 +102,7 @@ void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
                                 std::min(r.evaluated_last, way.last - reach));
 }
 
-/// Fills the errors of energy and momentum.
+/// Fills the errors of energy and momentum. [theory.md, eq. 14]
 void evaluate_balance(RunResults& r) {
   double worst = 0;
   double strain_low = r.samples.front().energy.strain;
@@ -159,7 +160,8 @@ Statistics measured_statistics(const Model& model, const RunResults& r, std::siz
   for (std::size_t i = 0; i < r.samples.size(); ++i)
     if ((!model.contact || evaluated(r.samples[i])) && std::isfinite(r.measured.row(i)[column]))
       values.push_back(r.measured.row(i)[column]);
-  return statistics(values);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return values.empty() ? Statistics{kNone, kNone, kNone, kNone} : statistics(values);
 }
 
 std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/results/root_attributes.hpp"
+#include "drivers/results/statistics_json.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"
 
@@ -18,7 +20,7 @@ namespace {
 
 struct HistoryColumn {
   Channel channel;
-  double (*value)(const Sample&);
+  std::function<double(const Sample&)> value;
 };
 
 double traction(const Sample& s) {
@@ -61,30 +63,6 @@ const std::vector<HistoryColumn>& wheel_columns() {
        [](const Sample& s) { return s.wheel_z; }},
       {{"corrugation_depth", "m", "of the rail under the wheel's axis"},
        [](const Sample& s) { return s.corrugation_depth; }},
-      {{"penalty_energy", "J", "stored in the contact penalties"},
-       [](const Sample& s) { return s.energy.penalty; }},
-      {{"frictional_work", "J", "dissipated by friction since the start"},
-       [](const Sample& s) { return s.energy.frictional_work; }},
-      {{"torque_work", "J", "done by the torque"}, [](const Sample& s) { return s.energy.torque_work; }},
-      {{"guide_work", "J", "done by the guide of the bore"},
-       [](const Sample& s) { return s.energy.guide_work; }},
-  };
-  return columns;
-}
-
-const std::vector<HistoryColumn>& body_columns() {
-  static const std::vector<HistoryColumn> columns = {
-      {{"kinetic_energy", "J", "of all bodies"}, [](const Sample& s) { return s.energy.kinetic; }},
-      {{"strain_energy", "J", "elastic, hourglass part included"},
-       [](const Sample& s) { return s.energy.strain; }},
-      {{"connector_energy", "J", "in springs"}, [](const Sample& s) { return s.energy.connectors; }},
-      {{"gravity_energy", "J", "potential"}, [](const Sample& s) { return s.energy.gravity; }},
-      {{"connector_loss", "J", "dissipated in dampers"},
-       [](const Sample& s) { return s.energy.connector_loss; }},
-      {{"damping_loss", "J", "lost because contact forces lead the motion by half a step"},
-       [](const Sample& s) { return s.energy.damping_loss; }},
-      {{"energy_residual", "J", "what the balance misses"},
-       [](const Sample& s) { return s.energy.residual; }},
   };
   return columns;
 }
@@ -94,22 +72,32 @@ const std::vector<HistoryColumn>& hammer_columns() {
       {{"hammer_force", "N", "on the rail head, downwards"}, [](const Sample& s) { return s.hammer_force; }},
       {{"hammer_displacement", "m", "of the struck point since the start, downwards"},
        [](const Sample& s) { return s.hammer_displacement; }},
-      {{"hammer_work", "J", "done by the hammer"}, [](const Sample& s) { return s.energy.hammer_work; }},
   };
   return columns;
 }
 
+void add_energies(EnergyPart part, std::vector<HistoryColumn>& columns) {
+  for (const EnergyKind& kind : kEnergyKinds)
+    if (kind.part == part)
+      columns.push_back({{kind.name, "J", kind.title},
+                         [member = kind.member](const Sample& s) { return s.energy.*member; }});
+}
+
 std::vector<HistoryColumn> columns_of(const Model& model) {
   std::vector<HistoryColumn> columns;
-  if (model.contact) columns = wheel_columns();
-  if (model.hammer) columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
-  columns.insert(columns.end(), body_columns().begin(), body_columns().end());
-  if (model.has_branches())
-    columns.push_back({{"material_loss", "J", "dissipated in the material's Maxwell branches"},
-                       [](const Sample& s) { return s.energy.material_loss; }});
-  if (has_laws(model.mesh))
-    columns.push_back({{"plastic_work", "J", "dissipated by material laws"},
-                       [](const Sample& s) { return s.energy.plastic_work; }});
+  if (model.contact) {
+    columns = wheel_columns();
+    add_energies(EnergyPart::contact, columns);
+  }
+  if (model.hammer) {
+    columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
+    add_energies(EnergyPart::hammer, columns);
+  }
+  add_energies(EnergyPart::bodies, columns);
+  columns.push_back({{"energy_residual", "J", "what the balance misses"},
+                     [](const Sample& s) { return s.energy.residual; }});
+  if (model.has_branches()) add_energies(EnergyPart::branches, columns);
+  if (has_laws(model.mesh)) add_energies(EnergyPart::laws, columns);
   return columns;
 }
 
@@ -149,10 +137,6 @@ std::int64_t sampling_interval(const Scene& scene, double dt) {
 }
 
 namespace {
-
-Json statistics_json(const Statistics& s) {
-  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
-}
 
 /// Largest values over the width and statistics on the axis, where the run has an evaluated stretch.
 Json surface_json(const SurfaceResults& s) {

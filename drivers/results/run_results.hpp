@@ -125,7 +125,7 @@ bool traction_is_steady(const RunResults& results);
 bool torque_has_settled(const Scene& scene, const RunResults& results);
 
 /// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values
-/// that were not measured do not count.
+/// that were not measured do not count, and without others all are NaN.
 Statistics measured_statistics(const Model& model, const RunResults& results, std::size_t column);
 
 std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);

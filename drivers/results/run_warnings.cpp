@@ -18,8 +18,9 @@ namespace {
 /// in the tread on 6 mm, 1 % on 2.2 mm.
 constexpr double kHourglass = 0.2;
 
-/// Slab and sleepers have few elements in their depth, which bend correctly: the energy of bending is in
-/// hourglass modes, all of it in one element, a quarter in two. [explanation/element.md]
+/// Slab and sleepers have few elements in their depth. The slab's move vertically: it shears and does not
+/// bend. Those of sleepers bend correctly: the energy of bending is in hourglass modes, all of it in one
+/// element, a quarter in two. [explanation/element.md]
 bool is_plate(const BlockIndex& index, int block) {
   return block == index.slab || std::ranges::count(index.sleepers, block) > 0;
 }

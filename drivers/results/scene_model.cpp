@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/mesh/grading.hpp"
-#include "drivers/engine/fields/chosen_fields.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/results/memory_need.hpp"
 
 namespace tread {

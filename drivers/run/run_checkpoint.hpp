@@ -16,9 +16,10 @@
 
 namespace tread {
 
-/// Number of the names and meanings in a checkpoint. It rises whenever one of them changes; checkpoints of
-/// another format are refused.
-inline constexpr std::int64_t kCheckpointFormat = 6;
+/// Number of the names and meanings in a checkpoint. It rises whenever one of them changes: with Sample, with
+/// StateList and with any list_state(). Checkpoints of another format are refused.
+inline constexpr std::int64_t kCheckpointFormat = 7;
+static_assert(sizeof(Sample) == 35 * sizeof(double), "a changed Sample raises kCheckpointFormat, too");
 
 /// Everything that a run was asked for.
 struct RunOrder {

@@ -63,6 +63,23 @@ TEST(FasteningWarning, NamesKeysThatFillTheRail) {
                       "ahead of it; state fastenings.first = \"0.1 m\" and fastenings.count = 4"));
 }
 
+/// On mortar of 10 MPa a slab of 0.4 m, 0.2 m thick, lacks 8 % of a fastening's compliance.
+TEST(SlabWarning, IsOfLayersOnWhichItWouldBend) {
+  const auto track = [](const char* mortar) {
+    return of_tyre({"rail.support=fastenings", "rail.height=150 mm", "rail.length=1.2 m", "rail.origin=0.6 m",
+                    "fastenings.count=2", "fastenings.spacing=0.6 m", "fastenings.first=0.3 m",
+                    "fastenings.pad_width=40 mm", "slab.pitch=0.6 m", "slab.gap=50 mm", "slab.width=0.4 m",
+                    "slab.gap_material=slab", "material.slab.youngs_modulus=34.5 GPa",
+                    "material.slab.poissons_ratio=0.25", "material.slab.density=2400 kg/m3",
+                    std::string("material.mortar.youngs_modulus=") + mortar,
+                    "material.mortar.poissons_ratio=0.2", "material.mortar.density=1600 kg/m3"});
+  };
+  EXPECT_FALSE(any_has(track("8 GPa"), "[slab]"));
+  const std::vector<std::string> soft = track("10 MPa");
+  EXPECT_TRUE(any_has(soft, "material.mortar.youngs_modulus = 10 MPa: its nodes move vertically"));
+  EXPECT_TRUE(any_has(soft, "gives way by 1.2e-09 m/N under a fastening, a slab that bends by 4.9e-09 m/N"));
+}
+
 TEST(HammerWarning, IsOfBlowsThatAreNotResolved) {
   const auto blow = [](const Overrides& more) {
     Overrides all = {"rail.length=1.3 m", "rail.origin=0.65 m", "fastenings.count=2",

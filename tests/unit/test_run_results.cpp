@@ -19,6 +19,7 @@
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/run_warnings.hpp"
+#include "io/text/json.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -187,17 +188,21 @@ TEST(Steps, TooManyToCountAreRefused) {
 
 /// The patch of a slice in plane strain is that of its load per width, however narrow it is.
 TEST(Warnings, ASliceHasThePatchOfItsLoadPerWidth) {
-  const auto warnings = [](int width) {
-    const std::string mm = std::to_string(width) + " mm";
-    return resolution_warnings(Model(samples::tyre_scene(
-        {"scene.plane_strain=true", "scene.element_size=6 mm", "scene.gravity=0 m/s2", "wheel.width=" + mm,
-         "rail.width=" + mm, "load.wheel_load=" + std::to_string(3 * width) + " kN"})));
+  const auto warnings = [](int width, int rail_width) {
+    Scene scene = samples::tyre_scene({"scene.element_size=6 mm", "scene.gravity=0 m/s2",
+                                       "wheel.width=" + std::to_string(width) + " mm",
+                                       "rail.width=" + std::to_string(rail_width) + " mm",
+                                       "load.wheel_load=" + std::to_string(3 * width) + " kN"});
+    scene.plane_strain = true;
+    scene.wheel->profile = "cylinder";
+    return resolution_warnings(Model(scene));
   };
-  const std::vector<std::string> narrow = warnings(6);
+  const std::vector<std::string> narrow = warnings(6, 6);
   ASSERT_FALSE(narrow.empty());
   EXPECT_NE(narrow.front().find("1.3 elements across (7.62 mm of Hertz"), std::string::npos)
       << narrow.front();
-  EXPECT_EQ(narrow, warnings(60));
+  EXPECT_EQ(narrow, warnings(60, 60));
+  EXPECT_EQ(narrow, warnings(30, 60));  // only the width over which both face each other carries
 }
 
 TEST(Warnings, ARailThatSinks) {
@@ -279,6 +284,85 @@ TEST(Warnings, SamplesWhoseIntervalChanges) {
   EXPECT_TRUE(sample_intervals(samples, 0, 0.08).even(kStep));
   EXPECT_TRUE(force_spectrum(samples, 0, 1, kStep).square.empty());
   EXPECT_FALSE(force_spectrum(samples, 0, 0.08, kStep).square.empty());
+  samples.resize(100);
+  EXPECT_TRUE(sample_intervals(samples, 0, 1).even(kStep));
+  samples.back().time += 1e-5;
+  EXPECT_FALSE(sample_intervals(samples, 0, 1).even(kStep)) << "the last counts like the others";
+}
+
+/// The wheel had left the evaluated stretch when its stress under the patch was first asked for.
+TEST(Measured, ValuesThatNoSampleHasAreNone) {
+  const Model model = zoned_model();
+  RunResults r;
+  r.dt = 1e-6;
+  const std::string name = "von_mises_below_01";
+  r.measured =
+      MeasuredRows({{.channel = {name, "Pa", "stress"}, .at = 0.01}}, {{name}, {NAN, NAN, NAN, 5e6}}, 4);
+  r.samples = {sample_at(0, 110), sample_at(1, 120), sample_at(2, 130), sample_at(3, 160)};
+  evaluate(model, r);
+  EXPECT_EQ(r.evaluated_samples, 3);
+  EXPECT_TRUE(std::isnan(measured_statistics(model, r, 0).mean));
+  const JsonRecord summary = parse_json(summary_json(model, {}, r), "summary");
+  EXPECT_EQ(text_in(summary, "measured." + name + ".unit"), "Pa");
+  for (const char* value : {".mean", ".min", ".max"})
+    EXPECT_FALSE(number_in(summary, "measured." + name + value)) << value;
+  r.samples.back().wheel_x = 0.14;
+  EXPECT_EQ(measured_statistics(model, r, 0).min, 5e6);
+}
+
+/// Each energy has a size of its own.
+EnergyLedger ledger_of(double size) {
+  EnergyLedger energy;
+  for (const EnergyKind& kind : kEnergyKinds) {
+    size *= 2;
+    energy.*kind.member = size;
+  }
+  return energy;
+}
+
+TEST(Energies, AddUpToTheTotal) {
+  const EnergyLedger e = ledger_of(1.1);
+  const double stored = e.kinetic + e.strain + e.connectors + e.penalty + e.gravity;
+  const double lost =
+      e.frictional_work + e.connector_loss + e.contact_loss + e.material_loss + e.plastic_work;
+  EXPECT_NEAR(e.total(), stored + lost - e.torque_work - e.guide_work - e.hammer_work, 1e-9);
+}
+
+TEST(Energies, CurvesAddUpToTheResidual) {
+  const Model model = zoned_model({"motion.traction.torque=6.9 kN m"});
+  RunResults r;
+  for (const int i : {0, 1}) {
+    r.samples.push_back(sample_at(i, i));
+    r.samples.back().energy = ledger_of(1 + i);
+  }
+  r.samples[1].energy.plastic_work = r.samples[0].energy.plastic_work;
+  r.samples[1].energy.residual = r.samples[1].energy.total() - r.samples[0].energy.total();
+  const Figure figure = energy_figure(model, r);
+  double sum = 0;
+  std::size_t curves = 0;
+  for (std::size_t i = 0; i + 1 < figure.panels.size(); ++i)
+    for (const Series& series : figure.panels[i].series) {
+      EXPECT_NE(series.label, "plastic work") << "it does not change";
+      sum += series.label.starts_with("work of the ") ? -series.y.back() : series.y.back();
+      ++curves;
+    }
+  EXPECT_EQ(curves, kEnergyKinds.size() - 1);
+  EXPECT_NEAR(sum, figure.panels.back().series.front().y.back(), 1e-9);
+}
+
+TEST(Energies, OfAllPartsHaveColumns) {
+  const Model model = zoned_model();
+  const std::vector<Channel> channels = history_channels(model);
+  const std::vector<double> row = history_row(model, {.energy = ledger_of(1)});
+  ASSERT_EQ(row.size(), channels.size());
+  for (const EnergyKind& kind : kEnergyKinds) {
+    const auto channel =
+        std::ranges::find_if(channels, [&](const Channel& c) { return c.name == kind.name; });
+    const bool part = kind.part == EnergyPart::bodies || kind.part == EnergyPart::contact;
+    ASSERT_EQ(channel != channels.end(), part) << kind.name;
+    if (!part) continue;
+    EXPECT_EQ(row[static_cast<std::size_t>(channel - channels.begin())], ledger_of(1).*kind.member);
+  }
 }
 
 /// A sine of 3 kN on a line has that amplitude, and 15 % less in the middle between two; its mean square
@@ -322,6 +406,18 @@ TEST(ForceFigure, ShowsTheSurfaceThatThePatchMeets) {
   results.preload.contact.centre.y = 0.015;
   const Figure figure = force_figure(model, results);
   ASSERT_EQ(figure.panels.size(), 2U);
+  const std::vector<double>& height = figure.panels.back().series.front().y;
+  EXPECT_NEAR(*std::min_element(height.begin(), height.end()), -1, 0.01);  // [mm]
+}
+
+TEST(SurfaceFigure, ShowsADipOfASmoothRail) {
+  const Model model(
+      samples::tyre_scene({"scene.element_size=12 mm", "surface.weld.kind=dip", "surface.weld.at=75 mm",
+                           "surface.weld.depth=1 mm", "surface.weld.length=40 mm"}));
+  RunResults results;
+  for (const double x : {0.05, 0.1}) results.surface.axis.push_back({.x = x});
+  const Figure figure = surface_figure(model, results);
+  ASSERT_EQ(figure.panels.size(), 3U);
   const std::vector<double>& height = figure.panels.back().series.front().y;
   EXPECT_NEAR(*std::min_element(height.begin(), height.end()), -1, 0.01);  // [mm]
 }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/depth_shape.hpp"
 #include "core/error.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/results/patch_file.hpp"
@@ -160,7 +161,7 @@ TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
   patch.average(2, 5, {point_on({3, 1}, 4e8)});
   file.append(0, 6e-3, patch);
   file.close();
-  const PatchSnapshots snapshots{
+  PatchSnapshots snapshots{
       read_patch_axes(folder_ / "patch.h5"), 1, ContactSpec{}, {}, read_patch(folder_ / "patch.h5", {6e-3})};
   const std::string csv = snapshots_csv(snapshots);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
@@ -168,6 +169,8 @@ TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
   EXPECT_NE(csv.find("\nt1,0.006,0.006,1e+08,3.1623e+07,5e+07\n"), std::string::npos) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);  // two nodes, one beside each
   EXPECT_EQ(snapshots_figure(snapshots).panels.size(), 2U);
+  snapshots.surfaces.rail.add(dip(1e-3, 4e-3, false), 6e-3);
+  EXPECT_EQ(snapshots_figure(snapshots).panels.size(), 3U);
 }
 
 TEST_F(SurfaceFiles, MapShowsWhatWasInContact) {

@@ -39,9 +39,10 @@ struct ImpulseAccount {
 /// Ends a run.
 class RunEnd {
  public:
-  /// NumericalError that names instant, energies, place, cause and way out.
+  /// NumericalError that names instant, energies, place, cause and way out. All ranks call it.
   [[noreturn]] virtual void stop() const = 0;
-  /// stop() where the step exceeds the stable step.
+  /// NumericalError where the step exceeds the stable one, which programs that link the engine may state: for
+  /// a patch that leaves the searched surface. Rank 0 alone calls it.
   virtual void stop_if_unstable() const = 0;
 
  protected:

@@ -57,7 +57,7 @@ void WheelRailContact::end_sample(const StepState& step, Sample& sample) const {
   const ContactTotals& totals = contact_->totals();
   sample.energy.penalty = totals.penalty_energy;
   sample.energy.frictional_work = contact_->frictional_work();
-  sample.energy.damping_loss = contact_->damping_work();
+  sample.energy.contact_loss = contact_->contact_loss();
   sample.vertical_force = -totals.force_on_rail.z;
   sample.longitudinal_force = -totals.force_on_rail.x;
   sample.lateral_force = -totals.force_on_rail.y;
