@@ -184,16 +184,12 @@ struct ContactSpec {
   int points = 3;                 ///< integration points per face and direction
 
   /// The largest coefficient of friction that the law knows: what a patch can transmit at the most [-].
-  double largest_friction() const {
-    if (friction_law != "table" || friction_at_x.empty()) return friction;
-    return *std::max_element(friction_at_x.begin(), friction_at_x.end());
-  }
+  double largest_friction() const { return friction_range().second; }
   /// The least that the law knows: all that a sliding patch may transmit [-].
-  double least_friction() const {
-    if (friction_law == "falling") return friction_fast;
-    if (friction_law != "table" || friction_at_x.empty()) return friction;
-    return *std::min_element(friction_at_x.begin(), friction_at_x.end());
-  }
+  double least_friction() const { return friction_range().first; }
+
+ private:
+  std::pair<double, double> friction_range() const;  ///< InputError for a law without one
 };
 
 /// [motion]; absent: the scene ends with its static state

@@ -15,6 +15,10 @@ std::vector<double> power_lines(std::span<const double> values, std::size_t line
 /// unit. A line that lies between two bands counts in both by its parts; the mean does not count.
 double band_power(const std::vector<double>& lines, double spacing, double low, double high);
 
+/// Least number of waves in the record, and of samples in a wave, of a band whose power is stated.
+inline constexpr double kWavesInRecord = 4;
+inline constexpr double kSamplesInWave = 2.5;
+
 /// A one-third octave band: its middle as the standards name it, and its exact middle, 10^(n/10).
 /// [IEC 61260-1]
 struct ThirdOctave {

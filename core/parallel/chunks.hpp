@@ -46,11 +46,4 @@ inline double dot(std::int64_t n, const double* a, const double* b) {
                     [=](std::int64_t first, std::int64_t last) { return dot_of_range(first, last, a, b); });
 }
 
-/// Computes y += a x.
-inline void add_scaled(std::int64_t n, double a, const double* x, double* y) {
-  for_chunks(n, [=](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) y[i] += a * x[i];
-  });
-}
-
 }  // namespace tread

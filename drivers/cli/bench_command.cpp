@@ -97,7 +97,8 @@ void add_bench_compare(CLI::App& bench) {
   auto by = std::make_shared<std::string>("rate");
   CLI::App& command = *bench.add_subcommand(
       "compare",
-      "compare two files of `bench kernels --json`; exit code 3 if the second is slower beyond the spread");
+      "compare two files of `bench kernels --json`; exit code 3 if the second is slower beyond the spread or "
+      "lacks rows");
   command.add_option("before", (*files)[0], "file of the older program")->required();
   command.add_option("after", (*files)[1], "file of the newer program")->required();
   command
@@ -105,12 +106,16 @@ void add_bench_compare(CLI::App& bench) {
                   "rate (default; one quiet machine), limit (shares of each machine's limits) or "
                   "instructions (recorded with -t 1; busy machines)")
       ->check(CLI::IsMember({"rate", "limit", "instructions"}));
-  command.callback([files, by] {
+  auto common = std::make_shared<bool>(false);
+  command.add_flag("--common", *common, "compare the rows of both files; the second may lack others");
+  command.callback([files, by, common] {
     const BenchMeasure measure = *by == "rate"    ? BenchMeasure::rate
                                  : *by == "limit" ? BenchMeasure::fraction_of_limit
                                                   : BenchMeasure::instructions;
-    if (!compare_benchmarks((*files)[0], (*files)[1], measure))
-      throw NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");
+    if (!compare_benchmarks((*files)[0], (*files)[1], measure, *common))
+      throw NumericalError(
+          "bench compare: at least one row is slower beyond the spread, or missing; --common allows missing "
+          "ones");
   });
 }
 

@@ -89,15 +89,20 @@ std::string refusal_of_name(const std::string& name) {
   return "";
 }
 
+/// Lets options that name a file or folder refuse names that none can have.
+void check_names(CLI::App& command) {
+  for (CLI::App* part : command.get_subcommands({})) check_names(*part);
+  for (const char* named : {"--output", "--svg", "--slurm"})
+    if (CLI::Option* option = command.get_option_no_throw(named))
+      option->check(CLI::Validator(refusal_of_name, ""));
+}
+
 /// Gives `--version` to every command, and `--quiet` and `--verbose` to those that act. Commands without
 /// progress are quiet anyway.
 void add_common_flags(CLI::App& command, bool& verbose) {
   command.set_version_flag("--version", version_line, "print the version and exit");
   for (CLI::App* part : command.get_subcommands({})) add_common_flags(*part, verbose);
   if (!command.get_subcommands({}).empty()) return;
-  for (const char* named : {"--output", "--svg", "--slurm"})
-    if (CLI::Option* option = command.get_option_no_throw(named))
-      option->check(CLI::Validator(refusal_of_name, ""));
   if (!command.get_option_no_throw("--quiet"))
     command.add_flag("--quiet")->description("no progress on stderr");
   CLI::Option* option = command.get_option_no_throw("--verbose");
@@ -118,6 +123,7 @@ int run(int argc, char** argv) {
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);
   bool verbose = false;
   add_common_flags(app, verbose);
+  check_names(app);
   require_command(app, argc, argv);
   const tread::Progress clock(false);
   try {

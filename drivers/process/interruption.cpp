@@ -22,7 +22,8 @@ std::atomic<int> g_stop = 0;             ///< signal that asked to stop
 std::atomic<std::int64_t> g_asked_at{};  ///< time of the request on the steady clock; 0: never [ns]
 std::atomic<bool> g_checkpoint = false;
 constexpr std::size_t kLongest = 1000;
-char g_early[kLongest + 1];
+char g_early[2][kLongest + 1];  ///< while a signal may write one, the other can be replaced
+std::atomic<int> g_which_early = 0;
 char g_late[kLongest + 1];
 char g_asked[kLongest + 1];
 
@@ -59,7 +60,7 @@ extern "C" void on_signal(int signal) {
   if (signal == SIGUSR1) {
     g_checkpoint = true;
   } else if (!g_deferred || asks_again(signal)) {
-    write_sentence(g_deferred ? g_late : g_early);
+    write_sentence(g_deferred ? g_late : g_early[g_which_early]);
     ::_exit(static_cast<int>(ExitCode::resumable));
   }
   errno = error;
@@ -68,7 +69,7 @@ extern "C" void on_signal(int signal) {
 }  // namespace
 
 Interruption::Interruption(const std::string& early, const std::string& late, const std::string& asked) {
-  set_sentence(g_early, early);
+  set_early(early);
   set_sentence(g_late, late);
   set_sentence(g_asked, asked);
   g_deferred = false;
@@ -91,6 +92,12 @@ Interruption::Interruption(const std::string& early, const std::string& late, co
 
 Interruption::~Interruption() {
   for (const auto& [signal, action] : before_) ::sigaction(signal, &action, nullptr);
+}
+
+void Interruption::set_early(const std::string& sentence) {
+  const int other = 1 - g_which_early;
+  set_sentence(g_early[other], sentence);
+  g_which_early = other;
 }
 
 void Interruption::defer() {

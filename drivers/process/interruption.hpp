@@ -22,6 +22,8 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
+  /// Replaces `early`.
+  void set_early(const std::string& sentence);
   void defer();
 
   /// Name of the signal that asked to stop, or null.

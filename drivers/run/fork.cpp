@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "drivers/engine/model/sections.hpp"
 #include "drivers/results/rail_ends.hpp"
+#include "drivers/results/run_results.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/scene/schema.hpp"
@@ -111,6 +112,10 @@ std::vector<std::string> differences(const ResolvedScene& there, const ResolvedS
       return of == nullptr || of->shown.empty() ? std::string("absent") : of->shown;
     };
     const bool both = entry[0] != nullptr && entry[1] != nullptr;
+    if (both && !file_text(here, entry[1]->value).empty() &&
+        file_text(there, entry[0]->value) == file_text(here, entry[1]->value) &&
+        fs::path(entry[0]->value).extension() == fs::path(entry[1]->value).extension())
+      continue;  // wherever it lies
     if (!both || entry[0]->value != entry[1]->value || entry[0]->unit != entry[1]->unit)
       texts.push_back(fmt::format("{} ({} there, {} here)", path, shown(entry[0]), shown(entry[1])));
     else if (file_text(there, entry[0]->value) != file_text(here, entry[1]->value))
@@ -257,10 +262,11 @@ Approach approach_of(const Scene& scene, double reach) {
   return {scene.start_x(), reach + kMargin, driven_wheel(scene)};
 }
 
-std::optional<std::int64_t> fork_step(const Model& model, double dt) {
+namespace {
+
+/// Time of the state for forks that is not stated: before the patch meets the corrugation or the zone [s].
+double usual_fork_time(const Model& model) {
   const Scene& scene = model.scene;
-  if (!scene.forks || !model.contact) return std::nullopt;
-  if (scene.forks->at) return steps_until(*scene.forks->at, dt);
   // Before the preload the contact has no corrugation yet; its ends along the rail do not need the centre.
   const Corrugation corrugation = scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
@@ -270,7 +276,34 @@ std::optional<std::int64_t> fork_step(const Model& model, double dt) {
         "[forks]: at the start the patch is less than 20 mm from x = {:.4f} m, where the corrugation or the "
         "solution zone begins, or the wheel stands; state forks.at",
         start));
-  return steps_until(time, dt);
+  return time;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> fork_step(const Model& model, double dt) {
+  const std::optional<ForkSpec>& forks = model.scene.forks;
+  if (!forks || !model.contact) return std::nullopt;
+  return steps_until(forks->at ? *forks->at : usual_fork_time(model), dt);
+}
+
+void require_fork_step(const Model& model, double dt, std::int64_t begun) {
+  const Scene& scene = model.scene;
+  const std::optional<std::int64_t> step = fork_step(model, dt);
+  if (!step) return;
+  const auto instant = [dt](std::int64_t steps) { return 1e3 * dt * static_cast<double>(steps); };
+  const bool stated = scene.forks->at.has_value();
+  if (*step > step_count(scene, dt))
+    throw InputError(
+        fmt::format("{}: the state for other runs is that of t = {:.6g} ms, after motion.duration = {:.6g} "
+                    "ms; state a longer "
+                    "motion.duration, or an earlier forks.at",
+                    stated ? "forks.at" : "[forks]", instant(*step), 1e3 * scene.motion->duration));
+  if (stated && *step < begun)
+    throw InputError(fmt::format(
+        "forks.at = {:.6g} ms lies before t = {:.6g} ms, where this run begins; state a later forks.at, or "
+        "leave [forks] out",
+        1e3 * *scene.forks->at, instant(begun)));
 }
 
 }  // namespace tread

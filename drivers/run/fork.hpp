@@ -53,4 +53,8 @@ Approach approach_of(const Scene& scene, double reach);
 /// none. InputError where the corrugation begins too near for ForkSpec::at to be left out.
 std::optional<std::int64_t> fork_step(const Model& model, double dt);
 
+/// InputError where the run ends before that step, or a stated ForkSpec::at lies before step `begun`, its
+/// first.
+void require_fork_step(const Model& model, double dt, std::int64_t begun = 0);
+
 }  // namespace tread

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
@@ -35,6 +36,8 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
   end_ = step_count(model.scene, results.dt);
   fork_step_ = fork_step(model, results.dt);
   if (results.origin && results.origin->steps == fork_step_) fork_step_.reset();  // the other run keeps it
+  if (fork_step_ && *fork_step_ > end_)  // of a resumed run with another motion.duration
+    session.progress.say("[forks] the run ends before the state for other runs: it keeps none");
 }
 
 void Rolling::begin() {
@@ -43,6 +46,7 @@ void Rolling::begin() {
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
   results_->measured = MeasuredRows(simulation_->measurements().channels());
   files_.emplace(*model_, session_->folder.path(), *results_);
+  know_files();
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, 0);
 }
 
@@ -53,6 +57,7 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                                     results_->samples.size());
   files_.emplace(*model_, session_->folder.path(), *results_,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
+  know_files();
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, simulation_->steps());
   for (const std::string& gap : frames_->gaps(simulation_->steps()))
     session_->progress.say("[warning] " + gap);
@@ -100,6 +105,7 @@ void Rolling::to_the_end() {
     if (!written_ || !session_->options.overrides.empty()) write_checkpoint();
     step_to_the_end();
     wait_for_writer();
+    require_files();
     files_->close();
   } catch (const NumericalError& error) {
     end_with_what_is_left<NumericalError>(error.what());
@@ -123,6 +129,7 @@ void Rolling::step_to_the_end() {
     }
     look();
   }
+  if (simulation_->steps() == fork_step_) keep_for_forks();  // at the run's end
 }
 
 void Rolling::keep_sample() {
@@ -204,6 +211,7 @@ void Rolling::check_penetration() {
 /// Writes a checkpoint, except of a motion that is not finite; the energies' watch soon ends such a motion.
 void Rolling::write_checkpoint() {
   wait_for_writer();
+  require_files();
   followers_.fetch(*simulation_);
   if (!simulation_->finite()) return;
   const Mark mark{simulation_->steps(), simulation_->time()};
@@ -218,6 +226,7 @@ void Rolling::write_checkpoint() {
 
 void Rolling::keep_for_forks() {
   wait_for_writer();
+  require_files();
   followers_.fetch(*simulation_);
   results_->seconds_rolling = seconds();
   const CheckpointFolder folder(session_->folder / kForkFolder);
@@ -230,6 +239,7 @@ void Rolling::keep_for_forks() {
 /// Writes a frame of a finite motion.
 void Rolling::write_frame() {
   wait_for_writer();
+  require_files();
   followers_.fetch(*simulation_);
   if (!simulation_->finite()) return;
   frames_->copy(*simulation_);
@@ -291,9 +301,11 @@ void Rolling::end_with_what_is_left(const std::string& why) {
     text += fmt::format("; {}", error.what());
   }
   close_quietly();
-  text +=
-      fmt::format("; {} samples are kept in {}", files_->rows_written(), session_->folder.path().string());
-  text += "; " + how_to_go_on<E>();
+  const std::string folder = session_->folder.path().string();
+  if (files_in_place())
+    text += fmt::format("; {} samples are kept in {}; {}", files_->rows_written(), folder, how_to_go_on<E>());
+  else if (const std::string moved = moved_text(folder); moved != why)
+    text += "; " + moved;
   throw E(text);
 }
 
@@ -303,6 +315,20 @@ void Rolling::close_quietly() {
     files_->close();
   } catch (const Error&) {
   }
+}
+
+void Rolling::know_files() {
+  for (const char* name : {"run.h5", "histories.csv"}) known_files_.emplace_back(session_->folder / name);
+  if (model_->contact) known_files_.emplace_back(session_->folder / kPatchFile);
+}
+
+bool Rolling::files_in_place() const {
+  return std::all_of(known_files_.begin(), known_files_.end(),
+                     [](const FileIdentity& file) { return file.in_place(); });
+}
+
+void Rolling::require_files() const {
+  if (!files_in_place()) throw ResourceError(moved_text(session_->folder.path()));
 }
 
 double Rolling::seconds() const {

@@ -34,6 +34,12 @@ bool is_resumable(const std::filesystem::path& folder) {
   return CheckpointFolder(folder / kCheckpointFolder).holds_run();
 }
 
+/// End of a sentence on a folder without a process.
+std::string waiting_text(const std::filesystem::path& folder) {
+  return is_resumable(folder) ? fmt::format("; {} goes on with the run", resume_text(folder))
+                              : ", and no run waits there";
+}
+
 /// status.json as the last process left it, and the truth about the folder: a process that was killed still
 /// says there what it did. Throws Interrupted if no process works on a run that `tread resume` goes on with.
 void print_status(const std::filesystem::path& folder) {
@@ -62,25 +68,27 @@ void control_run(const CtlOptions& options) {
     return;
   }
   if (!is_taken(folder))
-    throw InputError(is_resumable(folder)
-                         ? fmt::format("no process works on {}; {} goes on with the run", folder.string(),
-                                       resume_text(folder))
-                         : fmt::format("no process works on {}, and no run waits there", folder.string()));
+    throw InputError(fmt::format("no process works on {}{}", folder.string(), waiting_text(folder)));
   const bool stop = options.action == "stop";
   leave_request(folder, stop                        ? RunRequest::stop
                         : options.action == "frame" ? RunRequest::frame
                                                     : RunRequest::checkpoint);
-  const auto answered = [&] { return stop ? !is_taken(folder) : !is_pending(folder); };
+  const auto answered = [&] { return (!stop && !is_pending(folder)) || !is_taken(folder); };
   if (!wait_until(answered, options.patience))
     throw ResourceError(fmt::format(
         "the run in {} has not answered for {:g} s; the request still lies there. In "
         "the preload it stops at the next iteration of Newton's method and answers other requests "
         "after the first steps",
         folder.string(), options.patience));
-  const std::string answer = !stop                ? "writes a " + options.action
-                             : is_pending(folder) ? "had ended before it read the request"
-                                                  : "stopped";
-  fmt::print("{}: {}\n", folder.string(), answer);
+  const bool unread = is_pending(folder) && !is_taken(folder);
+  if (unread) withdraw_request(folder);
+  if (unread && !stop)
+    throw InputError(fmt::format("the run in {} ended before it read the request{}", folder.string(),
+                                 waiting_text(folder)));
+  fmt::print("{}: {}\n", folder.string(),
+             unread ? "had ended before it read the request"
+             : stop ? "stopped"
+                    : "writes a " + options.action);
 }
 
 }  // namespace tread

@@ -138,6 +138,13 @@ void require_run_folder(const fs::path& folder, std::string_view option) {
                                  option, folder.string()));
 }
 
+std::string moved_text(const fs::path& folder) {
+  return fmt::format(
+      "{} was moved or removed while its run went on, or files in it were; `tread resume` goes on where its "
+      "checkpoints are",
+      folder.string());
+}
+
 bool is_taken(const fs::path& folder) {
   return FileLock::is_held(folder);
 }
@@ -164,14 +171,15 @@ bool is_pending(const fs::path& folder) {
   return fs::exists(folder / kRequest);
 }
 
-RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_)) {
-  withdraw_request(path_);
+RunFolder::RunFolder(fs::path path) : identity_(std::move(path)), lock_(take(identity_.path())) {
+  withdraw_request(identity_.path());
 }
 
 std::optional<RunRequest> RunFolder::take_request() const {
+  if (!in_place()) return std::nullopt;  // it may be another run's
   // A request that comes meanwhile stays.
-  const fs::path taken = path_ / "request.taken";
-  if (::rename((path_ / kRequest).c_str(), taken.c_str()) != 0) return std::nullopt;
+  const fs::path taken = *this / "request.taken";
+  if (::rename((*this / kRequest).c_str(), taken.c_str()) != 0) return std::nullopt;
   const std::optional<RunRequest> request = read_request(taken);
   std::error_code ignored;
   fs::remove(taken, ignored);
@@ -179,7 +187,8 @@ std::optional<RunRequest> RunFolder::take_request() const {
 }
 
 bool RunFolder::take_stop() const {
-  const fs::path path = path_ / kRequest;
+  if (!in_place()) return false;
+  const fs::path path = *this / kRequest;
   std::error_code ignored;
   if (!fs::exists(path, ignored) || read_request(path) != RunRequest::stop) return false;
   fs::remove(path, ignored);
@@ -187,8 +196,9 @@ bool RunFolder::take_stop() const {
 }
 
 void RunFolder::show_status(const std::string& json) const {
+  if (!in_place()) return;  // another folder may have its name
   try {
-    show_text_file(path_ / kStatus, json);
+    show_text_file(*this / kStatus, json);
   } catch (const ResourceError&) {  // a full disk shows at the files that matter
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/files/file_identity.hpp"
 #include "io/files/file_lock.hpp"
 
 namespace tread {
@@ -21,6 +22,9 @@ std::int64_t folder_bytes(const std::filesystem::path& folder);
 
 /// InputError where there is no such folder; `option` begins its text, "--from: ".
 void require_run_folder(const std::filesystem::path& folder, std::string_view option = "");
+
+/// Sentence on a run's folder whose path leads to it no more.
+std::string moved_text(const std::filesystem::path& folder);
 
 /// Returns true if a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
@@ -48,19 +52,23 @@ class RunFolder {
   /// Takes the folder. Throws ResourceError if another process owns it.
   explicit RunFolder(std::filesystem::path path);
 
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return identity_.path(); }
+  std::filesystem::path operator/(const char* name) const { return path() / name; }
+
+  /// Returns true while the path leads to this folder.
+  bool in_place() const { return identity_.in_place(); }
 
   /// Request of another process, once.
   std::optional<RunRequest> take_request() const;
   /// Returns true if another process asks to stop, once. Other requests stay in the folder.
   bool take_stop() const;
 
-  /// Replaces status.json; a status that cannot be written is left out.
+  /// Replaces status.json; a status that cannot be written is left out, as is that of a folder without its
+  /// name.
   void show_status(const std::string& json) const;
 
  private:
-  std::filesystem::path path_;
+  FileIdentity identity_;
   FileLock lock_;
 };
 

@@ -35,7 +35,7 @@ void rehearse_fork(const RunSession& session, const Fork& fork) {
   require_same_past(fork, model);
   require_device_memory(model);
   require_disk(model, results.dt, file_bytes(session.order.scene));
-  fork_step(model, results.dt);
+  require_fork_step(model, results.dt, fork.order.origin->steps);
 }
 
 /// Finds the faults of a scene that its model shows.
@@ -96,7 +96,7 @@ void require_runnable(const Model& model, double dt, std::int64_t files) {
     return;
   }
   require_disk(model, dt, files);  // which asks for the places of probes, too
-  fork_step(model, dt);
+  require_fork_step(model, dt);
 }
 
 void refuse_to_overwrite(const RunSession& session, const Fork* fork) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <system_error>
@@ -72,9 +73,11 @@ void leave_static_patch(const Model& model, RunResults& results, const std::file
 }
 
 void obey_before_first_step(const RunSession& session) {
-  if (session.folder.take_stop())
-    throw Interrupted(
-        fmt::format("stopped before the first step; {} starts again", session.resume_command()));
+  if (!session.folder.take_stop()) return;
+  const std::string text =
+      fmt::format("stopped before the first step; {} starts again", session.resume_command());
+  session.show("stopped", text);
+  throw Interrupted(text);
 }
 
 Preload solve_statics(const RunSession& session, Model& model) {
@@ -123,14 +126,16 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
 }
 
 /// The other run's state becomes the first checkpoint of this one.
-void begin_fork(const RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
+void begin_fork(RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
   require_same_past(fork, model);
   require_disk(model, results.dt, file_bytes(session.order.scene));
-  results.seconds_mesh = session.progress.seconds();
   const ForkOrigin& origin = *fork.order.origin;
+  require_fork_step(model, results.dt, origin.steps);
+  results.seconds_mesh = session.progress.seconds();
   if (model.scene.output.frames > 0)
     FrameFiles::take_over(origin.folder, session.folder.path(), origin.steps);
   session.checkpoints.write(origin.steps, fork.content);
+  session.begin_with_state();
   session.checkpoints.write_order(pack_order(session.order));  // not before: without a state it begins anew
   session.progress.say(
       fmt::format("[fork] from {} at t = {:.6e} s (step {}); histories and frames up to there are copies",
@@ -143,7 +148,7 @@ void showing_failure(const RunSession& session, const std::function<void()>& act
     act();
   } catch (const Interrupted&) {
     throw;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     session.show("failed", error.what());
     throw;
   }
@@ -194,8 +199,11 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   try {
     leave_results(session, model, results);
   } catch (const ResourceError& error) {
-    throw ResourceError(
-        fmt::format("{}; with more room {} leaves the results", error.what(), session.resume_command()));
+    const std::string way_on =
+        session.folder.in_place()
+            ? fmt::format("once that is mended, {} leaves the results", session.resume_command())
+            : moved_text(session.folder.path());
+    throw ResourceError(fmt::format("{}; {}", error.what(), way_on));
   }
   for (const std::string& warning : results.warnings)
     if (std::find(of_mesh.begin(), of_mesh.end(), warning) == of_mesh.end())

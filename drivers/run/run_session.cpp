@@ -20,14 +20,18 @@ std::filesystem::path made(const std::filesystem::path& directory) {
   return directory;
 }
 
-/// Sentence on a signal before the first step. With --overwrite, states in the folder are of an earlier run,
-/// with which `tread resume` would go on until it is thrown away.
-std::string early_word(const RunOptions& given, const CheckpointFolder& checkpoints) {
+/// Sentence on a signal before the first step, with the command that goes on.
+std::string early_word(const std::string& command, bool from_checkpoint) {
+  return fmt::format("tread: stopped before the first step; {} {}", command,
+                     from_checkpoint ? "goes on from the last checkpoint" : "starts again");
+}
+
+/// The sentence as a process begins. With --overwrite, states in the folder are of an earlier run, with which
+/// `tread resume` would go on until it is thrown away.
+std::string first_word(const RunOptions& given, const CheckpointFolder& checkpoints) {
   const bool goes_on = !given.overwrite && !checkpoints.states().empty();
   const bool as_typed = given.overwrite || !given.from.empty() || !given.overrides.empty();
-  return fmt::format("tread: stopped before the first step; {} {}",
-                     as_typed ? "the same command" : resume_text(given.output),
-                     goes_on ? "goes on from the last checkpoint" : "starts again");
+  return early_word(as_typed ? "the same command" : resume_text(given.output), goes_on);
 }
 
 /// A launcher that has lost a rank asks the others to stop, and ends them soon after.
@@ -44,13 +48,17 @@ RunSession::RunSession(const RunOptions& given)
       folder(made(given.output)),
       checkpoints(given.output / kCheckpointFolder),
       progress(given.quiet),
-      interruption(early_word(given, checkpoints),
+      interruption(first_word(given, checkpoints),
                    fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
                                resume_text(given.output)),
                    last_word(given.output)) {}
 
 std::string RunSession::resume_command() const {
   return resume_text(folder.path());
+}
+
+void RunSession::begin_with_state() {
+  interruption.set_early(early_word(resume_command(), true));
 }
 
 Json RunSession::status(const std::string& stage) const {

@@ -28,6 +28,9 @@ struct RunSession {
   /// Command that goes on with the run: "`tread resume out`".
   std::string resume_command() const;
 
+  /// Lets a signal before the first step name that command: the first state is written.
+  void begin_with_state();
+
   /// The beginning of status.json: stage, version, process and machine.
   Json status(const std::string& stage) const;
 

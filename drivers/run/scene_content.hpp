@@ -11,10 +11,13 @@
 
 namespace tread {
 
-/// Values by key, and checksums of files by their place.
+/// Values by key; that of a key that names a file is the file's checksum.
 using SceneContent = std::map<std::string, std::string>;
 
-/// Content of the keys whose effects `counts`, and of the files that those keys name.
+/// Texts of files that a scene names, by absolute path.
+using SceneFiles = decltype(SceneSource::files);
+
+/// Content of the keys whose effects `counts`.
 SceneContent content_of(const ResolvedScene& resolved, const std::function<bool(Effects)>& counts);
 
 /// Everything that the results depend on (Effects::on_results).
@@ -37,8 +40,10 @@ struct KeptScene {
 
 /// Leaves the scene in the folder: kKeptScene and, where it names files, their checksums.
 void keep_scene(const std::filesystem::path& folder, const ResolvedScene& resolved);
-/// Throws InputError.
-KeptScene kept_scene(const std::filesystem::path& folder);
+/// Files as the kept checksums tell them: texts of `known`, files at their place, files that have moved
+/// together with the folder, or else other contents at their place. Throws InputError, which names files that
+/// are nowhere.
+KeptScene kept_scene(const std::filesystem::path& folder, const SceneFiles& known = {});
 
 /// The first thing that differs, "motion.speed is 83.3333 m/s here and 27.7778 m/s there"; empty where
 /// nothing does.

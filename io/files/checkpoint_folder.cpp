@@ -55,7 +55,7 @@ void write_verified(const fs::path& path, SealedContent content, const Checkpoin
 }  // namespace
 
 void CheckpointFolder::write_order(SealedContent order) const {
-  create_folder(folder_);
+  create_last_folder(folder_);
   write_verified(folder_ / "order.h5", std::move(order), {});
 }
 
@@ -65,7 +65,7 @@ SealedContent CheckpointFolder::read_order() const {
 
 void CheckpointFolder::write(std::int64_t steps, SealedContent content,
                              const CheckpointObserver& observer) const {
-  create_folder(folder_);
+  create_last_folder(folder_);
   remove_parts(folder_);
   write_verified(step_file(folder_, steps, kSuffix), std::move(content), observer);
   std::vector<std::int64_t> old = newest_first(folder_);
@@ -77,7 +77,7 @@ void CheckpointFolder::write(std::int64_t steps, SealedContent content,
 }
 
 void CheckpointFolder::keep(std::int64_t steps, const SealedContent& content) const {
-  create_folder(folder_);
+  create_last_folder(folder_);
   remove_parts(folder_);
   write_verified(step_file(folder_, steps, kSuffix), content, {});
 }

@@ -23,7 +23,8 @@ inline constexpr int kCheckpointStages = 5;
 /// Called with each stage as it is reached.
 using CheckpointObserver = std::function<void(CheckpointStage)>;
 
-/// FOLDER/order.h5, the run's order, and FOLDER/step-<number>.h5, its states.
+/// FOLDER/order.h5, the run's order, and FOLDER/step-<number>.h5, its states. Writing makes FOLDER, but not
+/// the run's folder above it: that one may have been moved away.
 class CheckpointFolder {
  public:
   explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -37,8 +38,7 @@ class CheckpointFolder {
   /// stay unchanged.
   void write(std::int64_t steps, SealedContent content, const CheckpointObserver& observer = {}) const;
 
-  /// Writes the state after `steps` steps as write() does, but creates the folder if it is missing and
-  /// removes nothing. Throws ResourceError.
+  /// Writes the state after `steps` steps as write() does, but removes nothing. Throws ResourceError.
   void keep(std::int64_t steps, const SealedContent& content) const;
 
   struct Found {

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -44,6 +45,12 @@ const char* remedy_of(int error) {
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw ResourceError(
       fmt::format("cannot write {}: {}{}", path.string(), std::strerror(error), remedy_of(error)));
+}
+
+void require_created(const std::filesystem::path& folder, const std::error_code& error) {
+  if (error)
+    throw ResourceError(
+        fmt::format("cannot create {}: {}{}", folder.string(), error.message(), remedy_of(error.value())));
 }
 
 /// Opens the file; an error names `shown`.
@@ -102,9 +109,13 @@ void replace_file(const std::filesystem::path& path,
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error)
-    throw ResourceError(
-        fmt::format("cannot create {}: {}{}", folder.string(), error.message(), remedy_of(error.value())));
+  require_created(folder, error);
+}
+
+void create_last_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  require_created(folder, error);
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text,

@@ -17,6 +17,9 @@ void replace_file(const std::filesystem::path& path,
 /// Makes the folder and those above it. Throws ResourceError.
 void create_folder(const std::filesystem::path& folder);
 
+/// Makes the folder in one that is there. Throws ResourceError.
+void create_last_folder(const std::filesystem::path& folder);
+
 /// Writes the text to the file at the path; an error names `shown`. Throws ResourceError.
 void write_text(const std::filesystem::path& path, std::string_view text, const std::filesystem::path& shown);
 

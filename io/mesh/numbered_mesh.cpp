@@ -205,18 +205,35 @@ class MeshNumbering {
                           (number && *number == source_.elements[e].part);
         if (same) chosen_[e] = found = true;
       }
-      if (const auto set = element_sets_.find(part); !found && set) {
-        const Members& members = *element_sets_.known[*set];
-        for (const std::int32_t e : members) chosen_[index(e)] = true;
-        found = !members.empty();
-      }
-      if (!found)
+      if (!found && !choose_set(part))
         faults_.add(
             0, "parts that are missing",
             fmt::format("there is no part \"{}\" with hexahedra; there are {}", shown(part), names()));
     }
     if (source_.elements.empty())
       faults_.add(0, "empty meshes", "there are no hexahedra of 8 nodes: is it the right file?");
+  }
+
+  /// Chooses the elements of the set of that name; false where there is none. Fault: several sets.
+  bool choose_set(const std::string& name) {
+    std::vector<const Members*> all;
+    for (std::size_t i = 0; i < element_sets_.known.size(); ++i)
+      if (lower_case(element_sets_.stated[i].name) == lower_case(name) && !element_sets_.known[i]->empty())
+        all.push_back(&*element_sets_.known[i]);
+    if (all.size() > 1) {
+      std::string sizes;
+      for (const Members* set : all)
+        sizes += fmt::format("{}{}", sizes.empty() ? "" : set == all.back() ? " and " : ", ", set->size());
+      faults_.add(
+          0, "sets of one name",
+          fmt::format("there are {} sets of elements \"{}\", of {} hexahedra; give each a name of its "
+                      "own in the file",
+                      all.size(), shown(name), sizes));
+      return true;
+    }
+    for (const Members* set : all)
+      for (const std::int32_t e : *set) chosen_[index(e)] = true;
+    return !all.empty();
   }
 
   std::string names() const {
@@ -275,15 +292,32 @@ class MeshNumbering {
   }
 
   void add_sets() {
-    for (std::size_t i = 0; i < element_sets_.known.size(); ++i)
-      keep(element_sets_.stated[i], *element_sets_.known[i], element_, "elements", result_.mesh.element_sets);
-    for (std::size_t i = 0; i < node_sets_.known.size(); ++i)
-      keep(node_sets_.stated[i], *node_sets_.known[i], node_, "nodes", result_.mesh.node_sets);
+    keep(element_sets_, element_, "elements", result_.mesh.element_sets);
+    keep(node_sets_, node_, "nodes", result_.mesh.node_sets);
   }
 
-  /// Stores the members of a set that belong to the mesh.
-  void keep(const MeshSource::Set& set, const Members& places, const std::vector<std::int32_t>& known,
-            const char* what, std::map<std::string, Members>& sets) {
+  /// Stores sets by name; each of several of one name gets a number, "tread (1)".
+  void keep(const Sets& of, const std::vector<std::int32_t>& known, const char* what,
+            std::map<std::string, Members>& sets) {
+    std::vector<Members> all;
+    std::map<std::string, int> times;
+    for (std::size_t i = 0; i < of.known.size(); ++i) {
+      all.push_back(members_in_mesh(of.stated[i], *of.known[i], known, what));
+      if (!all.back().empty()) ++times[of.stated[i].name];
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].empty()) continue;
+      std::string name = of.stated[i].name;
+      if (times[name] > 1)
+        for (int copy = 1; times.contains(name) || sets.contains(name); ++copy)
+          name = fmt::format("{} ({})", of.stated[i].name, copy);
+      sets.emplace(std::move(name), std::move(all[i]));
+    }
+  }
+
+  /// Members of a set that belong to the mesh, with notes on the others.
+  Members members_in_mesh(const MeshSource::Set& set, const Members& places,
+                          const std::vector<std::int32_t>& known, const char* what) {
     Members members;
     for (const std::int32_t place : places)
       if (known[index(place)] >= 0) members.push_back(known[index(place)]);
@@ -291,14 +325,11 @@ class MeshNumbering {
     if (members.empty()) {
       result_.notes.push_back(
           fmt::format("set \"{}\" has no {} of the mesh and is left out", shown(set.name), what));
-      return;
-    }
-    if (members.size() < places.size())
+    } else if (members.size() < places.size()) {
       result_.notes.push_back(fmt::format("set \"{}\": {} of {} {} belong to the mesh", shown(set.name),
                                           members.size(), places.size(), what));
-    std::string name = set.name;
-    for (int copy = 2; sets.contains(name); ++copy) name = fmt::format("{} ({})", set.name, copy);
-    sets.emplace(std::move(name), std::move(members));
+    }
+    return members;
   }
 
   /// Nodes of one face of elements, or of all.

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/text/text.hpp"
@@ -86,66 +87,77 @@ bool begins_as_row(std::string_view line) {
   return at_separator() || is_any_number(cell());
 }
 
+/// Statements of the lines before the first row.
+struct ColumnHeader {
+  double scale = 1e-3;        ///< of the file's lengths [m]
+  std::size_t announced = 0;  ///< rows; 0: not stated
+};
+
+/// Takes the statements of a line of the header.
+void read_header_line(const std::string& line, ColumnHeader& header, FilePoints& points) {
+  const std::vector<double> row = leading_numbers(line, 1);
+  const bool count = line.find_first_not_of("0123456789") == std::string::npos;
+  header.announced =
+      count && !row.empty() && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
+  const std::vector<std::string> words = words_of(line);
+  for (const std::string& word : words) {
+    if (word == "in" && !states_inches(line, words)) continue;
+    if (const auto unit = units().find(word); unit != units().end()) {
+      header.scale = unit->second.metres;
+      points.units = unit->second.name;
+    }
+    if (word == "left" || word == "right") points.side = word;
+    if (word == "wheel") points.wheel = true;
+    if (word == "rail") points.wheel = false;
+  }
+  require_order(words);
+}
+
 }  // namespace
 
 FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& faults) {
   FilePoints points;
   points.format = "columns under a header";
   points.units = "mm (assumed)";
-  double scale = 1e-3;
-  std::size_t columns = 0, announced = 0;
+  ColumnHeader header;
+  std::size_t columns = 0;
   int number = 0;
   const std::size_t known = faults.size();
+  const auto fault = [&](std::string message) { faults.push_back({number, std::move(message)}); };
   for (const std::string& whole : lines_of(text)) {
     ++number;
     const std::string line(trimmed(whole));
     if (line.empty() || line.starts_with('#') || line.starts_with('!')) continue;
     const std::vector<double> row = leading_numbers(line, 6);
-    if (columns == 0 && row.size() < 2 && begins_as_row(line)) {
-      faults.push_back(
-          {number, fmt::format("\"{}\": expected a row of numbers, y and z; a comment begins with #",
-                               line.substr(0, 60))});
-      continue;
-    }
     if (columns == 0 && row.size() < 2) {
-      const bool count = line.find_first_not_of("0123456789") == std::string::npos;
-      announced = count && !row.empty() && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
-      const std::vector<std::string> words = words_of(line);
-      try {
-        require_order(words);
-      } catch (const InputError& error) {
-        faults.push_back({number, error.what()});
-      }
-      for (const std::string& word : words) {
-        if (word == "in" && !states_inches(line, words)) continue;
-        if (const auto unit = units().find(word); unit != units().end()) {
-          scale = unit->second.metres;
-          points.units = unit->second.name;
+      if (begins_as_row(line))
+        fault(fmt::format("\"{}\": expected a row of numbers, y and z; a comment begins with #",
+                          line.substr(0, 60)));
+      else
+        try {
+          read_header_line(line, header, points);
+        } catch (const InputError& error) {
+          fault(error.what());
         }
-        if (word == "left" || word == "right") points.side = word;
-        if (word == "wheel") points.wheel = true;
-        if (word == "rail") points.wheel = false;
-      }
       continue;
     }
     if (has_decimal_commas(line)) {
-      faults.push_back({number, comma_fault(line)});
+      fault(comma_fault(line));
       continue;
     }
     if (columns == 0) columns = row.size();
     if (row.size() != columns || columns > 4) {
-      faults.push_back(
-          {number, fmt::format("\"{}\": expected a row of {} numbers as the first row has, y and z",
-                               line.substr(0, 60), columns > 4 ? 2 : columns)});
+      fault(fmt::format("\"{}\": expected a row of {} numbers as the first row has, y and z",
+                        line.substr(0, 60), columns > 4 ? 2 : columns));
       continue;
     }
-    points.y.push_back(row[0] * scale);
-    points.z.push_back(row[1] * scale);
+    points.y.push_back(row[0] * header.scale);
+    points.z.push_back(row[1] * header.scale);
   }
   if (faults.size() > known) return points;
-  if (announced > points.y.size())
+  if (header.announced > points.y.size())
     faults.push_back({0, fmt::format("the header announces {} rows, the file holds {}: is it cut off?",
-                                     announced, points.y.size())});
+                                     header.announced, points.y.size())});
   if (columns == 4) points.notes.emplace_back("the first two of four columns, the left side, are taken");
   if (columns == 3) points.notes.emplace_back("the third column is not used");
   return points;

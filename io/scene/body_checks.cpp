@@ -79,11 +79,29 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kMost ? fmt::format("{} and {} others", text, names.size() - kMost) : text;
 }
 
+/// `"tread (1)" (4 nodes) or "tread (2)" (12 nodes)` for a name that several sets of a file have; else empty.
+std::string sets_of_one_name(const HexMesh& mesh, const std::string& set) {
+  std::vector<std::string> texts;
+  for (int copy = 1;; ++copy) {
+    const std::string name = fmt::format("{} ({})", set, copy);
+    const auto found = mesh.node_sets.find(name);
+    if (found == mesh.node_sets.end()) break;
+    texts.push_back(fmt::format("\"{}\" ({} nodes)", shown(name), found->second.size()));
+  }
+  return texts.size() < 2 ? "" : fmt::format("{}", fmt::join(texts, " or "));
+}
+
 /// The nodes of a set; null, and a problem, where there are none.
 const std::vector<std::int32_t>* found_set(const std::string& key, const std::string& set,
                                            const BodySpec& body, Require require) {
   const auto& sets = body.mesh->node_sets;
   if (const auto found = sets.find(set); found != sets.end() && !found->second.empty()) return &found->second;
+  if (const std::string several = sets_of_one_name(*body.mesh, set); !several.empty()) {
+    require(false, {key},
+            fmt::format("{} has several sets \"{}\"; state {}, or give each a name of its own in the file",
+                        file_name(body), shown(set), several));
+    return nullptr;
+  }
   std::vector<std::string> names;
   for (const auto& [name, nodes] : sets)
     if (!nodes.empty()) names.push_back(name);

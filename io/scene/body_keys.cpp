@@ -1,7 +1,13 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/geometry/built_in_profiles.hpp"
 #include "core/mesh/wheel_section.hpp"
 #include "io/scene/key_builders.hpp"
 #include "io/scene/key_table.hpp"
@@ -60,6 +66,15 @@ void add_material(Keys& keys, const std::string& name) {
 
 namespace {
 
+/// Names of built-in profiles, and others behind them.
+template <std::size_t Count>
+std::vector<std::string> joined(const std::array<std::string_view, Count>& built_in,
+                                const std::vector<std::string>& others = {}) {
+  std::vector<std::string> names(built_in.begin(), built_in.end());
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
+}
+
 /// The keys of `table` that change the points of its profile's file.
 template <class Part>
 void add_profile_file(Keys& keys, const std::string& table, std::optional<Part> Scene::*part,
@@ -86,7 +101,7 @@ void add_wheel(Keys& keys) {
                                "Material of the wheel or wheelset"));
   keys.push_back(or_file(
       choice("wheel.profile", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::profile),
-             {"LMA", "S1002", "arc", "cylinder"},
+             joined(kBuiltInWheels, {"arc", "cylinder"}),
              "Profile of the tread; a half wheelset takes LMA (TB/T 449), S1002 (EN 13715) or a file (two "
              "columns, SIMPACK, MiniProf, columns under a header), a tyre takes arc or cylinder")));
   add_profile_file(keys, "wheel", &Scene::wheel, &WheelSpec::profile_shift, &WheelSpec::profile_smoothing);
@@ -155,15 +170,14 @@ void add_rail(Keys& keys) {
       "rail.head_material", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::head_material),
       "Material of the finely divided head, for example one that yields; empty: that of the rail. "
       "A box has no head"));
+  keys.push_back(or_file(choice(
+      "rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile), joined(kBuiltInRails, {"box"}),
+      "Cross-section: CN60 (GB 2585), a rail of EN 13674-1, or a box; also a file (two "
+      "columns, SIMPACK, MiniProf, columns under a header), which replaces the surface of the "
+      "head of `section`")));
   keys.push_back(
-      or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
-                     {"CN60", "60E1", "60E2", "49E1", "box"},
-                     "Cross-section: CN60 (GB 2585), a rail of EN 13674-1, or a box; also a file (two "
-                     "columns, SIMPACK, MiniProf, columns under a header), which replaces the surface of the "
-                     "head of `section`")));
-  keys.push_back(with_file("rail.profile",
-                           choice("rail.section", {Effect::mesh}, at(&Scene::rail, &RailSpec::section),
-                                  {"CN60", "60E1", "60E2", "49E1"}, "Rail whose head the file replaces")));
+      with_file("rail.profile", choice("rail.section", {Effect::mesh}, at(&Scene::rail, &RailSpec::section),
+                                       joined(kBuiltInRails), "Rail whose head the file replaces")));
   keys.push_back(with_file(
       "rail.profile",
       flag("rail.profile_mirrored", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile_mirrored),

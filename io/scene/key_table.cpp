@@ -121,6 +121,7 @@ Keys make_keys(const TableNames& names) {
   add_corrugation(keys);
   add_wear(keys);
   add_impacts(keys);
+  add_forks(keys);
   for (const std::string& name : names.surfaces) add_surface(keys, name);
   for (const std::string& name : names.bodies) add_body(keys, name);
   for (const std::string& name : names.probes) add_probe(keys, name);

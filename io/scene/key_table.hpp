@@ -33,6 +33,7 @@ void add_motion(Keys& keys);
 void add_corrugation(Keys& keys);
 void add_wear(Keys& keys);
 void add_impacts(Keys& keys);
+void add_forks(Keys& keys);
 void add_output(Keys& keys);
 
 /// All keys, and all tables, of a scene with tables of these names, in the order of documentation.

@@ -30,6 +30,7 @@ class Checker {
   std::vector<SceneProblem> run() {
     check_values();
     check_components();
+    if (scene_.plane_strain) check_plane_strain();
     check_materials();
     if (scene_.contact) check_friction(*scene_.contact);
     const auto others = [this](bool condition, std::vector<std::string> keys, std::string message) {
@@ -97,8 +98,6 @@ class Checker {
     require(!s.contact || s.vehicle || s.load || s.gravity > 0, {"contact", "load"},
             "nothing presses the wheel on the rail; add [load] or [vehicle], or state scene.gravity");
     require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
-    require(!s.plane_strain || !s.rail || s.rail->profile == "box", {"scene.plane_strain", "rail.profile"},
-            "plane strain needs a block under the tyre; state rail.profile = \"box\"");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
     require(!s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
@@ -113,6 +112,29 @@ class Checker {
             "load.present = false or vehicle.present = false");
     require(s.wheel || s.rail, {"scene.based_on"},
             "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
+  }
+
+  /// Nodes are held across: contact may not push them there.
+  void check_plane_strain() {
+    const Scene& s = scene_;
+    require(!s.wheel || s.wheel->profile == "cylinder", {"scene.plane_strain", "wheel.profile"},
+            "plane strain is that of a wheel that is straight across; state wheel.profile = \"cylinder\", or "
+            "scene.plane_strain = false");
+    require(!s.rail || s.rail->profile == "box", {"scene.plane_strain", "rail.profile"},
+            "plane strain needs a block under the tyre; state rail.profile = \"box\"");
+    require(!s.rail || s.rail->crown_radius == 0, {"scene.plane_strain", "rail.crown_radius"},
+            "plane strain is that of a rail that is straight across; state rail.crown_radius = 0, or "
+            "scene.plane_strain = false");
+    require(!s.corrugation, {"scene.plane_strain", "corrugation"},
+            "a corrugation ends across the rail, and plane strain has no depth that varies across; state a "
+            "[surface.NAME] with kind = \"waves\" or \"profile\", or scene.plane_strain = false");
+    for (const auto& [name, surface] : s.surfaces) {
+      const std::string kind = std::string(kSurfaceTables) + name + ".kind";
+      require(surface.kind != "dent" && surface.kind != "map", {"scene.plane_strain", kind},
+              fmt::format("a {} varies across, and plane strain has no depth that does; state kind = \"dip\" "
+                          "or \"profile\", or scene.plane_strain = false",
+                          surface.kind));
+    }
   }
 
   void check_materials() {

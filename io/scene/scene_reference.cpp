@@ -20,8 +20,8 @@ A scene is a [TOML](https://toml.io) file.
 A table that is absent is not modelled and costs nothing.
 
 * **Units.** A physical quantity is a string with its unit: `"300 km/h"`, `"0.14 mm"`, `"205.9 GPa"`, `"200 kN s/m"`.
-  Units are products, quotients and powers of m, g, t, s, min, h, N, Pa, Hz, B with the prefixes n, u, m, c, d, k, M, G.
-  A blank or `*` multiplies; `/` divides by the next factor alone.
+  Units are products, quotients and powers of m, g, t, s, min, h, N, J, Pa, Hz, B with the prefixes n, u, m, c, d, k, M, G.
+  A blank or `*` multiplies; `/` divides by the next factor alone, or by brackets: `kg/(N m)`.
   A bare number is an error.
 * **Base.** `scene.based_on` names a library entry (below); its values hold where the file states none.
   `present = false` leaves out a table of the base, for example in `[slab]`.

@@ -1,12 +1,13 @@
 #include "io/scene/wheel_checks.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/geometry/built_in_profiles.hpp"
 #include "core/mesh/wheel_shape.hpp"
 #include "core/travel.hpp"
 
@@ -75,7 +76,7 @@ void check_dimensions(const WheelSpec& wheel, Require require) {
 void check_half_wheelset(const WheelSpec& wheel, Require require) {
   check_dimensions(wheel, require);
   require(!has_arc(wheel), {"wheel.profile", "wheel.shape"},
-          "a half wheelset has the profile LMA, S1002 or a file");
+          fmt::format("a half wheelset has the profile {} or a file", fmt::join(kBuiltInWheels, ", ")));
   require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),
           {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
           "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "

@@ -23,7 +23,7 @@ struct Symbol {
   bool prefixed;
 };
 
-constexpr std::array<Symbol, 10> kSymbols{{
+constexpr std::array<Symbol, 11> kSymbols{{
     {"m", {0, 1, 1, {1, 0, 0}}, true},
     {"g", {-3, 1, 1, {0, 1, 0}}, true},
     {"t", {3, 1, 1, {0, 1, 0}}, false},
@@ -31,6 +31,7 @@ constexpr std::array<Symbol, 10> kSymbols{{
     {"min", {0, 60, 1, {0, 0, 1}}, false},
     {"h", {0, 3600, 1, {0, 0, 1}}, false},
     {"N", {0, 1, 1, {1, 1, -2}}, true},
+    {"J", {0, 1, 1, {2, 1, -2}}, true},
     {"Pa", {0, 1, 1, {-1, 1, -2}}, true},
     {"Hz", {0, 1, 1, {0, 0, -1}}, true},
     {"B", {0, 1, 1, {0, 0, 0, 1}}, true},
@@ -139,6 +140,46 @@ double in_si(std::string_view number, const Unit& unit) {
   return value;
 }
 
+InputError unknown_unit(std::string_view name) {
+  return InputError(fmt::format("unknown unit \"{}\"", name));
+}
+
+Unit take_product(std::string_view& text, std::string_view whole, bool in_brackets);
+
+/// Takes a symbol, or a product in brackets, which has none itself.
+Unit take_factor(std::string_view& text, std::string_view whole, bool in_brackets) {
+  if (!in_brackets && text.starts_with('(')) {
+    text.remove_prefix(1);
+    const Unit product = take_product(text, whole, true);
+    if (text.empty()) throw unknown_unit(whole);
+    text.remove_prefix(1);
+    return product;
+  }
+  const std::string_view name = take_name(text);
+  const std::optional<Unit> symbol = find_symbol(name);
+  if (!symbol) throw unknown_unit(name.empty() ? whole : name);
+  return *symbol;
+}
+
+/// Takes factors up to the end of the text, or to the bracket that closes. `whole`: for messages.
+Unit take_product(std::string_view& text, std::string_view whole, bool in_brackets) {
+  Unit unit;
+  int sign = 1;
+  while (true) {
+    text = trimmed(text);
+    const Unit factor = take_factor(text, whole, in_brackets);
+    multiply(unit, factor, sign * take_power(text));
+    const bool blank = text.starts_with(' ');
+    text = trimmed(text);
+    if (text.empty() || (in_brackets && text.front() == ')')) return unit;
+    sign = text.front() == '/' ? -1 : 1;
+    if (text.front() == '/' || text.front() == '*')
+      text.remove_prefix(1);
+    else if (!blank)
+      throw unknown_unit(whole);
+  }
+}
+
 /// "a mass" where the dimension has a name, else its exponents.
 std::string dimension_name(const Dimension& dimension) {
   if (dimension == Dimension{}) return "a pure number";
@@ -156,24 +197,7 @@ std::string dimension_name(const Dimension& dimension) {
 Unit parse_unit(std::string_view text) {
   const std::string ascii = in_ascii(trimmed(text));
   std::string_view rest = ascii;
-  Unit unit;
-  int sign = 1;
-  while (true) {
-    rest = trimmed(rest);
-    const std::string_view name = take_name(rest);
-    const std::optional<Unit> factor = find_symbol(name);
-    if (!factor) throw InputError(fmt::format("unknown unit \"{}\"", name.empty() ? ascii : name));
-    multiply(unit, *factor, sign * take_power(rest));
-    const bool blank = !rest.empty() && rest.front() == ' ';
-    rest = trimmed(rest);
-    if (rest.empty()) return unit;
-    sign = rest.front() == '/' ? -1 : 1;
-    if (rest.front() == '/' || rest.front() == '*') {
-      rest.remove_prefix(1);
-    } else if (!blank) {
-      throw InputError(fmt::format("unknown unit \"{}\"", ascii));
-    }
-  }
+  return take_product(rest, ascii, false);
 }
 
 double parse_number(std::string_view text) {
@@ -201,21 +225,45 @@ double parse_ratio(std::string_view text) {
   return parse_number(text.substr(0, colon)) / denominator;
 }
 
+namespace {
+
+/// "; write "0.5 us"" for "0,5 us"; empty where that is no such quantity either.
+std::string with_point(std::string_view text, const Quantity& expected) {
+  std::string pointed(trimmed(text));
+  const std::size_t comma = pointed.find(',');
+  const std::size_t end = std::min(pointed.find_first_not_of("0123456789", comma + 1), pointed.size());
+  if (end - comma - 1 == 3) return "";  // perhaps thousands
+  pointed[comma] = '.';
+  try {
+    parse_quantity(pointed, expected);
+  } catch (const InputError&) {
+    return "";
+  }
+  return fmt::format("; write \"{}\"", pointed);
+}
+
+}  // namespace
+
 double parse_quantity(std::string_view text, const Quantity& expected, std::string_view unit) {
   std::string_view rest = trimmed(text);
   std::string number = "1";
+  std::string example = "1";  // empty: with a unit that is unknown, the number is of another size
   Unit stated;
   try {
-    number = take_number(rest);
+    example = number = take_number(rest);
     rest = trimmed(rest);
     if (rest.empty()) throw InputError(fmt::format("\"{}\" has no unit", text));
-    if (rest.front() == ',') throw InputError(fmt::format("\"{}\" has a decimal comma, not a point", text));
+    example.clear();
+    if (rest.front() == ',')
+      throw InputError(
+          fmt::format("\"{}\" has a decimal comma, not a point{}", text, with_point(text, expected)));
     stated = parse_unit(rest);
+    example = number;
     if (stated.dimension != expected.dimension) {
       throw InputError(fmt::format("\"{}\" is {}", text, dimension_name(stated.dimension)));
     }
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}; {}", error.what(), expectation(expected, number, unit)));
+    throw InputError(fmt::format("{}; {}", error.what(), expectation(expected, example, unit)));
   }
   return in_si(number, stated);
 }
@@ -229,8 +277,10 @@ double parse_option(std::string_view option, std::string_view text, const Quanti
 }
 
 std::string expectation(const Quantity& expected, const std::string& number, std::string_view unit) {
-  return fmt::format("expected {}, such as \"{} {}\" (units: {})", dimension_name(expected.dimension), number,
-                     unit.empty() ? expected.si : unit, expected.accepted);
+  const std::string example =
+      number.empty() ? "" : fmt::format(", such as \"{} {}\"", number, unit.empty() ? expected.si : unit);
+  return fmt::format("expected {}{} (units: {})", dimension_name(expected.dimension), example,
+                     expected.accepted);
 }
 
 std::string format_quantity(double si, const std::string& unit) {

@@ -47,9 +47,9 @@ inline constexpr Quantity kWear{"wear coefficient", {-2, 0, 2}, "kg/N/m", "kg/N/
 inline constexpr Quantity kFrequency{"frequency", {0, 0, -1}, "Hz", "Hz, kHz"};
 inline constexpr Quantity kData{"amount of data", {0, 0, 0, 1}, "B", "B, kB, MB, GB"};
 
-/// Parses products, quotients and powers of m, g, t, s, min, h, N, Pa, Hz, B with SI prefixes from n to G:
-/// "km/h", "kN s/m", "kg/m3", "mm^2". A blank, '*' or '·' multiplies; '/' divides by the next factor alone.
-/// Throws InputError.
+/// Parses products, quotients and powers of m, g, t, s, min, h, N, J, Pa, Hz, B with SI prefixes from n to G:
+/// "km/h", "kN s/m", "kg/m3", "mm^2", "kg/(N m)". A blank, '*' or '·' multiplies; '/' divides by the next
+/// factor alone, or by brackets without others inside. Throws InputError.
 Unit parse_unit(std::string_view text);
 
 /// A finite decimal number and nothing else. Throws InputError.
@@ -62,14 +62,14 @@ double parse_number(std::string_view text, const Unit& unit);
 double parse_ratio(std::string_view text);
 
 /// "0.14 mm" in SI. Throws InputError when the number or the unit is malformed, or the unit measures
-/// something else; the message then shows the number in `unit`, by default the SI unit.
+/// something else; the message shows the number in `unit`, by default the SI unit, unless its own is unknown.
 double parse_quantity(std::string_view text, const Quantity& expected, std::string_view unit = {});
 
 /// The same for the value of a command line's option, which the message names.
 double parse_option(std::string_view option, std::string_view text, const Quantity& expected);
 
-/// `expected a length, such as "15.2 m" (units: m, cm, ...)`, for messages; `number` is the user's. Without
-/// `unit`, the SI unit.
+/// `expected a length, such as "15.2 m" (units: m, cm, ...)`, for messages; `number` is the user's, and
+/// empty for no example. Without `unit`, the SI unit.
 std::string expectation(const Quantity& expected, const std::string& number, std::string_view unit = {});
 
 /// The value `si` written in `unit` with six digits, "0.14 mm".

@@ -104,6 +104,14 @@ TEST_F(Fork, ThatHasLostItsStatesDoesNotBeginAtTheStart) {
   EXPECT_TRUE(has(errors(), "has lost the states of its fork")) << errors();
 }
 
+TEST_F(Fork, ASignalBeforeItsFirstStepNamesResume) {
+  const pid_t process = start(from("sine.toml", "smooth"));
+  for (int i = 0; i < 100'000 && !has(errors(), "[fork] from"); ++i) ::usleep(200);
+  ::kill(process, SIGINT);  // in most cases before the first step
+  EXPECT_EQ(wait_for(process), 75) << errors();
+  EXPECT_TRUE(has(errors(), fmt::format("`tread resume {}` goes on", folder_.string()))) << errors();
+}
+
 TEST_F(Fork, EndsEarlierWhereItsSceneSaysSo) {
   EXPECT_EQ(call(from("sine.toml", "smooth", "--set \"motion.duration=1.6 ms\"")), 0) << errors();
   const std::string histories = content_of(folder_ / "histories.csv");
@@ -159,6 +167,15 @@ TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
   expect_refused(
       run("sine.toml", folder_, "--set \"solution_zone.start=0.03 m\" --set \"corrugation.start=0.03 m\""),
       "state forks.at");
+}
+
+/// The run would end without it, and nothing would say so.
+TEST_F(Fork, AStateThatIsNeverReachedIsRefused) {
+  expect_refused(from("sine.toml", "smooth", "--set \"forks.at=0.1 ms\""),
+                 "forks.at = 0.1 ms lies before t = ");
+  EXPECT_FALSE(fs::exists(folder_ / "checkpoint"));
+  expect_refused(run("sine.toml", folder_, "--set \"motion.duration=0.3 ms\""),
+                 "after motion.duration = 0.3 ms; state a longer motion.duration, or an earlier forks.at");
 }
 
 TEST_F(Fork, RefusalsLeaveTheRunThatItWouldThrowAway) {

@@ -47,7 +47,7 @@ TEST_F(PointFolder, TellsOfAStopThatTheExitCodeHides) {
   show("failed");
   for (const ProcessEnd end : {ProcessEnd{3, 0}, {124, 0}, {143, 0}})
     EXPECT_FALSE(stopped(end, true)) << end.code;
-  show("preload");  // a stop before the first step leaves the stage
+  show("preload");  // a signal before the first step leaves the stage
   for (const int code : {124, 129, 130, 143}) EXPECT_TRUE(stopped({code, 0})) << code;
   for (const int code : {1, 2, 127, 137}) EXPECT_FALSE(stopped({code, 0})) << code;
 }

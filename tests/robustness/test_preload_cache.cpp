@@ -208,6 +208,7 @@ TEST_F(PreloadCache, AStopIsObeyedWhileAnotherProcessSolves) {
   leave_request(root_ / "stopped", RunRequest::stop);
   EXPECT_EQ(wait_for(waiting), 75);
   EXPECT_TRUE(has(errors(), "stopped before the first step")) << errors();
+  EXPECT_TRUE(has(content_of(root_ / "stopped/status.json"), "\"stopped\""));
 }
 
 TEST_F(PreloadCache, IsShownAndCleared) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "drivers/run/run_scene.hpp"
 #include "drivers/run/run_session.hpp"
 #include "io/files/checkpoint_folder.hpp"
+#include "tests/bar_scene.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {
@@ -54,6 +56,14 @@ class Resume : public ProgramTest {
   void expect_finishes_as_if_never_stopped(const std::string& more = "") {
     EXPECT_EQ(call(resume(more)), 0) << errors();
     expect_same_run(root_ / "whole", folder_);
+  }
+
+  RunOptions quiet_options() const {
+    RunOptions options;
+    options.threads.number = 1;
+    options.quiet = true;
+    options.output = folder_;
+    return options;
   }
 
   static constexpr const char* kFrames = "--set output.frames=6";
@@ -111,6 +121,80 @@ TEST_F(Resume, ARunWhoseFolderIsRemovedLacksAResource) {
   ::kill(process, SIGUSR1);
   ::kill(process, SIGCONT);
   EXPECT_EQ(wait_for(process), 4) << errors();
+}
+
+/// Without contact and frames a run writes to open files, which need no name.
+TEST_F(Resume, ARunWhoseFolderIsMovedIsNotDone) {
+  const fs::path scene = root_ / "bar.toml", moved = root_ / "moved", said = root_ / "said";
+  std::ofstream(scene) << kBar;
+  RunOptions options = quiet_options();
+  for (const char* duration : {"0.1 ms", "1 s"}) {
+    const bool stopped = duration[0] == '1';
+    const std::vector<std::string> values = {"output.frames=0", fmt::format("motion.duration={}", duration)};
+    options.observer = [&](CheckpointStage stage) {
+      if (stage != CheckpointStage::old_removed) return;
+      fs::rename(folder_, moved);
+      fs::create_directory(folder_);  // of another user of the name
+      if (stopped) ::kill(::getpid(), SIGTERM);
+    };
+    const pid_t process = child([&] {
+      try {
+        run_scene(resolve_scene(scene, values), options);
+      } catch (const Error& error) {
+        std::ofstream(said) << error.what();
+        ::_exit(static_cast<int>(error.code()));
+      }
+    });
+    EXPECT_EQ(wait_for(process), 4) << duration;
+    EXPECT_TRUE(has(content_of(said), folder_.string() + " was moved or removed")) << content_of(said);
+    EXPECT_FALSE(has(content_of(said), "samples are kept")) << content_of(said);
+    EXPECT_TRUE(fs::is_empty(folder_));
+    EXPECT_EQ(CheckpointFolder(moved / "checkpoint").states().size(), 1U);
+    fs::remove_all(folder_);
+    fs::remove_all(moved);
+  }
+}
+
+TEST_F(Resume, ResultsThatCannotBeWrittenNameTheReasonAndTheWayOn) {
+  std::ofstream(root_ / "bar.toml") << kBar;
+  fs::create_directories(folder_ / "report.html");
+  EXPECT_EQ(call(fmt::format("run {}/bar.toml -t 1 -o {} {}", root_.string(), folder_.string(), kFrames)), 4);
+  EXPECT_TRUE(has(errors(), "report.html: Is a directory; choose the name of a file; once that is mended, " +
+                                resume_text(folder_) + " leaves the results"))
+      << errors();
+  fs::remove(folder_ / "report.html");
+  EXPECT_EQ(call(resume()), 0) << errors();
+}
+
+TEST_F(Resume, FailuresOfLibrariesShowInTheStatus) {
+  std::ofstream(root_ / "bar.toml") << kBar;
+  RunOptions options = quiet_options();
+  options.observer = [](CheckpointStage stage) {
+    if (stage == CheckpointStage::old_removed) throw std::bad_alloc();
+  };
+  const pid_t process = child([&] {
+    try {
+      run_scene(resolve_scene(root_ / "bar.toml"), options);
+    } catch (const std::bad_alloc&) {
+      ::_exit(9);
+    }
+  });
+  EXPECT_EQ(wait_for(process), 9);
+  EXPECT_TRUE(has(content_of(folder_ / "status.json"), "\"failed\"")) << content_of(folder_ / "status.json");
+}
+
+TEST_F(Resume, ARequestThatAnEndedRunHasNotReadIsWithdrawn) {
+  fs::create_directories(folder_);
+  for (const char* action : {"checkpoint", "frame", "stop"}) {
+    std::optional<RunFolder> run(std::in_place, folder_);
+    const pid_t control = start(fmt::format("ctl {} {} --wait 50", folder_.string(), action));
+    ASSERT_TRUE(wait_until([&] { return is_pending(folder_); }));
+    run.reset();
+    const bool stop = std::string(action) == "stop";
+    EXPECT_EQ(wait_for(control), stop ? 0 : 2) << action;
+    EXPECT_TRUE(has(stop ? output() : errors(), "ended before it read the request")) << action << errors();
+    EXPECT_FALSE(is_pending(folder_)) << action;
+  }
 }
 
 TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
@@ -332,9 +416,7 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
 TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=1 ms",
                                            "output.checkpoint_interval=1 ms", "output.frames=3"};
-  RunOptions options;
-  options.threads.number = 1;
-  options.quiet = true;
+  RunOptions options = quiet_options();
   options.output = root_ / "short";
   ASSERT_EQ(wait_for(child([&] { run_scene(resolve_scene(fs::path(kTyre), values), options); })), 0);
   options.output = folder_;
@@ -352,10 +434,7 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
 }
 
 TEST_F(Resume, OtherValuesAreKeptBeforeTheFirstStep) {
-  RunOptions options;
-  options.threads.number = 1;
-  options.quiet = true;
-  options.output = folder_;
+  RunOptions options = quiet_options();
   const CheckpointFolder checkpoints(folder_ / "checkpoint");
   const auto ends_at = [&](CheckpointStage stage, const std::function<void()>& begin) {
     options.observer = [stage](CheckpointStage reached) {
@@ -388,10 +467,11 @@ TEST(RunSessions, ASignalBeforeTheFirstStepNamesTheWayOn) {
   RunOptions options;
   options.output = temporary.path / "run";
   const fs::path said = temporary.path / "said";
-  const auto signal_early = [&] {
+  const auto signal_early = [&](bool with_state = false) {
     const pid_t process = child([&] {
       if (std::freopen(said.c_str(), "w", stderr) == nullptr) ::_exit(1);
-      const RunSession session(options);
+      RunSession session(options);
+      if (with_state) session.begin_with_state();
       ::raise(SIGINT);
     });
     EXPECT_EQ(wait_for(process), 75);
@@ -407,6 +487,7 @@ TEST(RunSessions, ASignalBeforeTheFirstStepNamesTheWayOn) {
   options.overrides.clear();
   options.overwrite = true;  // what it throws away may still be there
   EXPECT_TRUE(has(signal_early(), "the same command starts again")) << content_of(said);
+  EXPECT_TRUE(has(signal_early(true), sentence + " goes on from the last checkpoint")) << content_of(said);
 }
 
 TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {

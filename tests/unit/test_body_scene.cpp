@@ -122,7 +122,7 @@ TEST_F(BodyScene, ContentsOfTheFileTellScenesApart) {
   EXPECT_EQ(difference(before, scene_content(resolved(disc("web")))), "");
   write("bar.inp", with_edge(samples::abaqus_file()) + "** another\n");
   const std::string apart = difference(before, scene_content(resolved(disc("web"))));
-  EXPECT_NE(apart.find("bar.inp has other contents"), std::string::npos) << apart;
+  EXPECT_NE(apart.find("body.web.file is a .inp file of checksum "), std::string::npos) << apart;
 }
 
 TEST_F(BodyScene, UnknownSetsAreRefused) {
@@ -142,6 +142,23 @@ TEST_F(BodyScene, UnknownSetsAreRefused) {
   for (int i = 0; i < 9; ++i) many += "*NSET, NSET=more" + std::to_string(i) + "\n101\n";
   write("bar.inp", many);
   EXPECT_NE(refusal(disc("web"), {"body.web.tread=none"}).find("\"more5\" and 3 others"), std::string::npos);
+}
+
+TEST_F(BodyScene, OneOfSeveralSetsOfOneNameIsRefused) {
+  std::string deck = samples::keyword_file(samples::SolidCards::one);
+  for (const char* set :
+       {"bottom\n         2\n       133       134\n", "edge\n         3\n       135       136\n"})
+    deck.insert(deck.find("*DATABASE"), std::string("*SET_NODE_LIST_TITLE\n") + set);
+  write("two.k", deck);
+  const auto web = [](const std::string& tread) {
+    return "[body.web]\nreplaces = \"disc\"\nfile = \"two.k\"\nunit = \"mm\"\ntread = \"" + tread +
+           "\"\naxle = \"edge\"\n";
+  };
+  EXPECT_EQ(
+      refusal(web("bottom")),
+      "x.toml:8:1: body.web.tread: two.k has several sets \"bottom\"; state \"bottom (1)\" (12 nodes) or "
+      "\"bottom (2)\" (2 nodes), or give each a name of its own in the file");
+  EXPECT_EQ(refusal(web("bottom (1)")), "accepted");
 }
 
 TEST_F(BodyScene, WrongUnitsAreRefused) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/geometry/built_in_profiles.hpp"
@@ -12,6 +14,7 @@
 #include "core/geometry/touching.hpp"
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "io/scene/schema.hpp"
 #include "tests/section_quality.hpp"
 
 namespace tread {
@@ -96,6 +99,16 @@ SectionSize size_of(double surface, double coarse, double centre) {
   size.band_centre = centre;
   size.band_half_width = std::max(14.0, 6 * surface) * mm;
   return size;
+}
+
+TEST(BuiltInProfiles, CanBeStatedInScenes) {
+  const auto states = [](const char* key, std::string_view name) {
+    const std::vector<std::string> allowed = find_key(key)->allowed;
+    return std::find(allowed.begin(), allowed.end(), name) != allowed.end();
+  };
+  for (const std::string_view name : kBuiltInRails)
+    EXPECT_TRUE(states("rail.profile", name) && states("rail.section", name)) << name;
+  for (const std::string_view name : kBuiltInWheels) EXPECT_TRUE(states("wheel.profile", name)) << name;
 }
 
 TEST(BuiltInPairs, AreMeshedWhereTheyTouch) {

@@ -75,6 +75,35 @@ TEST(ImportedMesh, KeepsSetsOfElementsAndFaces) {
   EXPECT_EQ(abaqus.node_sets.at("ALL").size(), 36U);
 }
 
+/// Gmsh lets a curve and a surface have one name, keyword decks two sets.
+TEST(ImportedMesh, SetsOfOneNameAreNumbered) {
+  std::string text = gmsh_file("4.1");
+  const auto replace = [&](const std::string& before, const std::string& after) {
+    ASSERT_NE(text.find(before), std::string::npos) << before;
+    text.replace(text.find(before), before.size(), after);
+  };
+  replace("$PhysicalNames\n3\n", "$PhysicalNames\n4\n1 4 \"bottom\"\n");
+  replace("$Entities\n1 0 1 2\n1 0 0 0 0\n", "$Entities\n1 1 1 2\n1 0 0 0 0\n3 0 0 0 30 0 0 1 4 0\n");
+  replace("3 18 11 205\n", "4 19 11 300\n1 3 1 1\n300 101 102\n");
+  const HexMesh mesh = sound({"a.msh", text}).mesh;
+  EXPECT_FALSE(mesh.node_sets.contains("bottom"));
+  EXPECT_EQ(numbers(mesh.node_number, mesh.node_sets.at("bottom (1)")),
+            (std::vector<std::int64_t>{101, 102}));
+  EXPECT_EQ(mesh.node_sets.at("bottom (2)").size(), 12U);
+
+  text = keyword_file(SolidCards::one);
+  replace("*DATABASE",
+          "*SET_SOLID_TITLE\nrow\n         8\n        11        12        13\n"
+          "*SET_SOLID_TITLE\nrow\n         9\n        14\n*DATABASE");
+  EXPECT_EQ(sound({"a.k", text}).mesh.elements.size(), 12U);
+  MeshFaults faults;
+  mesh_of(text, "a.k", {1e-3, {"row"}, 1}, faults);
+  ASSERT_EQ(faults.list().size(), 1U);
+  EXPECT_EQ(faults.list().front().message,
+            "there are 2 sets of elements \"row\", of 3 and 1 hexahedra; give each a name of its own in the "
+            "file");
+}
+
 TEST(ImportedMesh, NamesWhatItLeavesOut) {
   const auto noted = [](const MeshFile& file, const char* part) {
     std::string all;

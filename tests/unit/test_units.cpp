@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -50,6 +52,13 @@ TEST(Units, QuantitiesAreExactlyTheirLiteralsInSi) {
       {"1000 Hz", kFrequency, 1000},
       {"1.5 kHz", kFrequency, 1500},
       {"2.5 GB", kData, 2.5e9},
+      {"2.5e-9 kg/(N m)", kWear, 2.5e-9},
+      {"2.5e-9 kg/(N*m)", kWear, 2.5e-9},
+      {"2.5e-9 kg/(N·m)", kWear, 2.5e-9},
+      {"2.5e-9 kg/J", kWear, 2.5e-9},
+      {"2.5 ug/( N m )", kWear, 2.5e-9},
+      {"2 N/(mm)^2", kStress, 2e6},
+      {"3 kg/(m s)/s", kStress, 3},
   };
   for (const Reading& reading : readings) {
     EXPECT_EQ(parse_quantity(reading.text, reading.quantity), reading.si) << reading.text;
@@ -80,13 +89,20 @@ TEST(Units, RefusalsNameTheReasonAndAnExample) {
       {"3 m/m", "is a pure number; expected a length"},
       {"1 Pa", "\"1 Pa\" is a stress"},
       {"1 m/s2", "\"1 m/s2\" is an acceleration"},
-      {"3 furlong", "unknown unit \"furlong\""},
+      {"3 furlong", "unknown unit \"furlong\"; expected a length (units: m, cm, mm, um, km)"},
+      {"3 (m", "unknown unit \"(m\""},
+      {"3 m)", "unknown unit \"m)\""},
+      {"3 m/()", "unknown unit \"m/()\""},
+      {"3 m3/((m m))", "unknown unit"},
       {"3 MM", "unknown unit \"MM\""},
       {"3 m-m", "unknown unit \"m-m\""},
       {"3 m/", "unknown unit \"m/\""},
       {"3 m^", "the exponent must be an integer"},
       {"3 m0", "the exponent must be an integer"},
-      {"1,5 m", "decimal comma"},
+      {"1,5 m", "\"1,5 m\" has a decimal comma, not a point; write \"1.5 m\"; expected a length (units: m,"},
+      {"1,5 kg", "\"1,5 kg\" has a decimal comma, not a point; expected a length (units: m,"},
+      {"1,500 m", "\"1,500 m\" has a decimal comma, not a point; expected a length (units: m,"},
+      {"1,5", "\"1,5\" has a decimal comma, not a point; expected a length (units: m,"},
       {"nan m", "not finite"},
       {"inf m", "not finite"},
       {"1e999 m", "too large or too small"},
@@ -97,6 +113,34 @@ TEST(Units, RefusalsNameTheReasonAndAnExample) {
     EXPECT_NE(length_error(refusal.text).find(refusal.reason), std::string::npos)
         << refusal.text << " -> " << length_error(refusal.text);
   }
+}
+
+/// Numbers with a unit in a text: "2.5e-9 kg/(N m)" of one that says that this is usual.
+std::vector<std::string> quantities_in(const std::string& text) {
+  static const std::regex kQuantity(R"((\d[\d.]*(e-?\d+)?) (([A-Za-z]+)([/*][A-Za-z]+\d?|/\([^)]*\)|\d)*))");
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), kQuantity), end; at != end; ++at) {
+    try {
+      parse_unit((*at)[4].str());
+      found.push_back(at->str());
+    } catch (const InputError&) {  // a word: "3 columns"
+    }
+  }
+  return found;
+}
+
+TEST(Units, DescriptionsOfKeysHaveTheNotationThatIsRead) {
+  int read = 0;
+  for (const Key& key : scene_keys())
+    for (const std::string& text : quantities_in(key.description)) {
+      const std::string unit = text.substr(text.find(' '));
+      EXPECT_NO_THROW(parse_unit(unit)) << key.path << ": " << text;
+      ++read;
+    }
+  EXPECT_GT(read, 5);
+  const std::vector<std::string> wear = quantities_in(find_key("wear.coefficient")->description);
+  ASSERT_EQ(wear.size(), 1U);
+  EXPECT_EQ(parse_quantity(wear.front(), kWear), 2.5e-9);
 }
 
 TEST(Units, RatiosAndNumbersAreStrict) {

@@ -1,0 +1,24 @@
+#include "io/files/file_identity.hpp"
+
+#include <sys/stat.h>
+
+namespace tread {
+
+namespace {
+
+std::optional<std::pair<std::uint64_t, std::uint64_t>> device_and_number(const std::filesystem::path& path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) != 0) return std::nullopt;
+  return std::pair<std::uint64_t, std::uint64_t>(found.st_dev, found.st_ino);
+}
+
+}  // namespace
+
+FileIdentity::FileIdentity(std::filesystem::path path)
+    : path_(std::move(path)), known_(device_and_number(path_)) {}
+
+bool FileIdentity::in_place() const {
+  return known_ && device_and_number(path_) == known_;
+}
+
+}  // namespace tread
