@@ -154,10 +154,20 @@ TEST_F(Develop, APassageDeeperThanTheRoomIsRefusedBeforeItRolls) {
   EXPECT_FALSE(fs::exists(folder_ / "passage-0003"));
 }
 
-/// A passage names the profile under it by its path.
-TEST_F(Develop, APassageOfAMovedFolderSaysWhatToRemove) {
+/// A passage's scene names the profile under it by its path; its contents count.
+TEST_F(Develop, APassageOfAMovedFolderIsKnown) {
+  fs::copy(root_ / "whole", folder_, fs::copy_options::recursive);
+  const std::string work = content_of(folder_ / "work/0002.csv");
+  fs::remove(folder_ / "work/0002.csv");
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear)), 0) << errors();
+  EXPECT_EQ(content_of(folder_ / "work/0002.csv"), work);
+}
+
+TEST_F(Develop, APassageOfAnotherProfileSaysWhatToRemove) {
   fs::copy(root_ / "whole", folder_, fs::copy_options::recursive);
   fs::remove(folder_ / "work/0002.csv");
+  fs::remove_all(folder_ / "passage-0002");
+  fs::copy(folder_ / "passage-0000", folder_ / "passage-0002", fs::copy_options::recursive);
   EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear)), 2);
   EXPECT_TRUE(has(errors(), "passage-0002 holds another run")) << errors();
   EXPECT_TRUE(has(errors(), "remove that folder, and this passage begins anew")) << errors();

@@ -12,6 +12,7 @@
 #include "drivers/process/host.hpp"
 #include "drivers/process/version.hpp"
 #include "drivers/run/run_folder.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "drivers/studies/study/study_plan.hpp"
 #include "io/text/json.hpp"
 #include "tests/program.hpp"
@@ -387,6 +388,62 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
   fs::remove(first / "histories.csv");
   EXPECT_EQ(sweep(file), 2);
   EXPECT_TRUE(has(errors(), "remove " + first.string() + ", and start")) << errors();
+}
+
+/// Points of two speeds, of which one does not reach the corrugation, and of two waves on one mesh.
+TEST_F(Sweep, ListsWarningsOnceWithTheirPoints) {
+  const std::string wave =
+      "corrugation.apply = \"gap\"\ncorrugation.start = \"0.13 m\"\ncorrugation.length = \"40 mm\"\n"
+      "corrugation.wavelength = ";
+  const auto point = [&](const char* name, const char* length, const char* speed) {
+    return fmt::format("[[point]]\nname = \"{}\"\nmotion.speed = \"{} km/h\"\n{}\"{} mm\"\n", name, speed,
+                       wave, length);
+  };
+  const fs::path file = study(
+      "tyre.toml", "[set]\nscene.element_size = \"10 mm\"\nmotion.duration = \"2.2 ms\"\n" +
+                       point("short", "20", "300") + point("long", "40", "300") + point("slow", "20", "150"));
+  ASSERT_EQ(program_.call(fmt::format("sweep {} --list", file.string())), 0) << errors();
+  const std::string list = program_.out();
+  EXPECT_TRUE(has(list, "3 of 3 points have warnings:\n")) << list;
+  EXPECT_TRUE(has(list, "\n  slow: the wheel rolls to x = ")) << list;
+  EXPECT_TRUE(has(list, " m and does not reach the corrugation")) << list;
+  EXPECT_TRUE(has(list, "\n  short and 1 more: a wave of the corrugation has 2.0 elements")) << list;
+  EXPECT_TRUE(has(list, "\n  long: a wave of the corrugation has 4.0 elements")) << list;
+  EXPECT_TRUE(has(list, "\n  short and 2 more: the contact patch has ")) << list;
+  ASSERT_EQ(program_.call(fmt::format("sweep {} --list --json", file.string())), 0) << errors();
+  const JsonRecord json = parse_json(program_.out(), "list");
+  EXPECT_TRUE(has(text_in(json, "warnings.0.text"), "the contact patch has")) << program_.out();
+  EXPECT_EQ(text_in(json, "warnings.0.points.2"), "slow");
+}
+
+/// The scene's file counts by its contents: results and scene may lie elsewhere when they are collected.
+TEST_F(Sweep, ResultsOfASceneThatHasMovedAreCollected) {
+  const auto planned = [&](const char* place, const char* depth) {
+    const fs::path folder = program_.folder / place;
+    fs::create_directory(folder);
+    std::ofstream(folder / "depth.txt") << "# x [mm] d [mm]\n0 0\n40 " << depth << "\n80 0\n";
+    std::ofstream(folder / "scene.toml")
+        << "[scene]\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"
+           "file = \"depth.txt\"\n";
+    std::ofstream(folder / "study.toml")
+        << "[study]\nscene = \"scene.toml\"\n[[point]]\nname = \"one\"\nmotion.duration = \"1 ms\"\n";
+    return plan_study(read_study(folder / "study.toml"), runs_);
+  };
+  const StudyPlan first = planned("there", "0.02");
+  fs::create_directories(runs_ / "one");
+  keep_scene(runs_ / "one", first.points[0].resolved);
+  program_.write("runs/one/summary.json", "{}");
+  fs::remove_all(program_.folder / "there");
+  StudyPlan same = planned("here", "0.02");
+  look_into_folders(same);
+  EXPECT_EQ(same.points[0].status.state, PointState::done);
+  StudyPlan other = planned("here", "0.03");
+  try {
+    look_into_folders(other);
+    ADD_FAILURE() << "results of another file";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(has(error.what(), "there/depth.txt of checksum ")) << error.what();
+  }
 }
 
 /// A study that goes on has part of its files already.

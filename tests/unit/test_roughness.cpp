@@ -50,7 +50,7 @@ TEST(RoughnessBands, AreThoseOfTheStandard) {
   for (std::size_t i = 0; i < bands.size(); ++i) {
     EXPECT_NEAR(bands[i].middle / bands[i].nominal, 1, 0.012) << i;
     if (i > 0) {
-      EXPECT_NEAR(bands[i].longest() / bands[i - 1].shortest(), 1, 1e-12) << i;
+      EXPECT_NEAR(bands[i].high() / bands[i - 1].low(), 1, 1e-12) << i;
       EXPECT_LT(bands[i].limit, bands[i - 1].limit) << i;
     }
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/error.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -19,13 +20,11 @@ class SceneOnATable : public testing::Test {
     std::ofstream(folder_.path / "depth.txt")
         << "# x [mm] d [mm]\n0 0\n40 " << depth.substr(0, 4) << "\n80 0\n";
   }
-  ResolvedScene resolved() const {
-    const std::string text =
-        "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"
-        "file = \"depth.txt\"\n";
-    return resolve_scene(SceneSource{"test", text, folder_.path});
-  }
+  ResolvedScene resolved() const { return resolve_scene(SceneSource{"test", kText, folder_.path}); }
 
+  static constexpr const char* kText =
+      "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"
+      "file = \"depth.txt\"\n";
   samples::TemporaryFolder folder_;
 };
 
@@ -36,7 +35,44 @@ TEST_F(SceneOnATable, IsKeptAsItWas) {
   write("0.03 mm");
   EXPECT_EQ(difference(before, kept_scene(folder_.path).content), "");
   const std::string apart = difference(scene_content(resolved()), kept_scene(folder_.path).content);
-  EXPECT_TRUE(samples::has(apart, "depth.txt has other contents")) << apart;
+  EXPECT_TRUE(samples::has(apart, "corrugation.file is a .txt file of checksum ")) << apart;
+}
+
+TEST_F(SceneOnATable, IsTheSameWhereItHasMoved) {
+  const std::filesystem::path old = folder_.path / "old", now = folder_.path / "now";
+  std::filesystem::create_directories(old / "runs/one");
+  std::filesystem::rename(folder_.path / "depth.txt", old / "depth.txt");
+  const auto at = [](const std::filesystem::path& place) {
+    return resolve_scene(SceneSource{"test", kText, place});
+  };
+  const SceneContent before = scene_content(at(old));
+  keep_scene(old / "runs/one", at(old));
+  std::filesystem::rename(old, now);
+  const KeptScene kept = kept_scene(now / "runs/one");  // the file lies above the folder, as before
+  EXPECT_EQ(difference(before, kept.content), "");
+  EXPECT_EQ(difference(scene_content(at(now)), kept.content), "");
+  EXPECT_EQ(kept.resolved.scene.corrugation->table_x.size(), 3U);
+}
+
+TEST_F(SceneOnATable, AFileThatIsNotThereIsKnownByItsChecksum) {
+  const std::filesystem::path run = folder_.path / "run", other = folder_.path / "other.txt";
+  std::filesystem::create_directories(run);
+  keep_scene(run, resolved());
+  const SceneFiles files = resolved().source.files;
+  std::filesystem::rename(folder_.path / "depth.txt", other);
+  EXPECT_EQ(kept_scene(run, files).resolved.scene.corrugation->table_x.size(), 3U);
+  const std::string place = (folder_.path / "depth.txt").string();
+  try {
+    kept_scene(run);
+    ADD_FAILURE() << "a scene without its file";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(samples::has(error.what(),
+                             "put them back, or into " + run.string() + ":\n" + place + " of checksum "))
+        << error.what();
+  }
+  std::filesystem::rename(other, run / "depth.txt");
+  EXPECT_EQ(
+      difference(scene_content(resolve_scene(SceneSource{"test", kText, run})), kept_scene(run).content), "");
 }
 
 TEST(SceneContent, TellsMaterialsApart) {

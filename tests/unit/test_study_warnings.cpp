@@ -1,12 +1,17 @@
 // Warnings of a study's runs, and the curves of its trends.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/studies/study/study_figures.hpp"
 #include "drivers/studies/study/study_report.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -33,6 +38,29 @@ TEST(StudyTrends, AColourAGroupAndAStrokeAResult) {
     EXPECT_EQ(figure.panels[0].series[i].colour, static_cast<int>(i / 3)) << i;
     EXPECT_EQ(figure.panels[0].series[i].stroke, strokes[i % 3]) << i;
   }
+}
+
+/// Its forces are those over the smooth rail before the corrugation.
+TEST(StudyResults, ARunThatHasNotReachedItsCorrugationHasNone) {
+  const samples::TemporaryFolder folder;
+  const Scene scene = samples::tyre_scene({"solution_zone.length=200 mm", "corrugation.start=0.13 m",
+                                           "corrugation.length=60 mm", "corrugation.wavelength=20 mm"});
+  const auto run = [&](double last) {
+    std::ofstream(folder.path / "summary.json") << fmt::format(
+        "{{\"evaluated_x_m\": [0.0, {}], \"vertical_force_N\": {{\"max\": 3}}, "
+        "\"creepage_percent\": 0.3}}",
+        last);
+    return read_finished_run(folder.path, scene, "a");
+  };
+  const FinishedRun before = run(0.1), over = run(0.15);
+  EXPECT_EQ(over.result("vertical_force_N.max"), 3);
+  EXPECT_EQ(before.number("vertical_force_N.max"), 3);
+  EXPECT_EQ(before.result("vertical_force_N.max"), std::nullopt);
+  EXPECT_EQ(before.result("creepage_percent"), 0.3);
+  const std::vector<TrendRun> runs = {{&before, 0, ""}, {&over, 1, ""}};
+  const Figure figure = trend_figure("", "", fluctuation_panels(), runs);
+  ASSERT_EQ(figure.panels.size(), 1U);
+  EXPECT_EQ(figure.panels[0].series[0].x, std::vector<double>{1});
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "drivers/studies/develop/development.hpp"
 #include "drivers/studies/develop/development_report.hpp"
+#include "drivers/studies/develop/passage_room.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
@@ -119,7 +120,7 @@ TEST(Growth, TheResponseIsFoundWithItsPhase) {
     if (band.wavelength != 0.08 && band.wavelength != 0.04) continue;
     EXPECT_NEAR(std::abs(band.response - response), 0, 0.02 * std::abs(response)) << band.wavelength;
     EXPECT_NEAR(band.lag(), -0.8 / (2 * std::numbers::pi), 0.005);
-    EXPECT_GT(band.coherence, 0.99);
+    EXPECT_GT(band.coherence.value_or(0), 0.99);
   }
 }
 
@@ -169,6 +170,46 @@ TEST(Development, ProfilesGrowAsTheirWorkSays) {
     EXPECT_EQ(deepest(bands)->wavelength, 0.08);
     EXPECT_NE(verdict(development).find(response > 0 ? "feeds" : "alleviates"), std::string::npos);
   }
+}
+
+/// A short stretch, whose ends fade: the bands beside hold what the taper makes of the one wave.
+TEST(Development, AWaveThatIsNotInTheProfileTellsNothing) {
+  for (const double wavelength : {0.08, 0.0533, 0.07}) {
+    Development development;
+    WornProfile profile{kStart, 1e-3, {}};
+    for (int i = 0; i <= 160; ++i) profile.depth.push_back(1e-6 * wave(kStart + 1e-3 * i, wavelength));
+    development.plan = {kPerWork, 0.05, kBand, profile};
+    development.profile = profile;
+    development.smooth.mean = work_of([](double, int) { return kMean; });
+    SurfaceWork work = development.smooth;
+    for (std::size_t i = 0; i < work.mean.x.size(); ++i)
+      work.mean.work[i] += 50 * wave(work.mean.x[i], wavelength);
+    development.add(work);
+    const std::vector<BandOutcome> bands = outcome(development);
+    EXPECT_EQ(std::ranges::count_if(bands, &BandOutcome::telling), 1) << wavelength;
+    EXPECT_EQ(at(bands, wavelength == 0.0533 ? 0.05 : 0.08).telling, true) << wavelength;
+    for (const BandOutcome& band : bands) EXPECT_FALSE(band.coherence) << "of one line " << band.wavelength;
+  }
+}
+
+TEST(Development, AShortApproachLeavesLittleRoomAndSaysSo) {
+  const auto resolved = [](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"scene.element_size=8 mm",  "corrugation.wavelength=36 mm",
+                                    "corrugation.start=0.1 m",  "corrugation.length=72 mm",
+                                    "corrugation.depth=0.1 mm", "corrugation.apply=gap",
+                                    "wear.shortest=32 mm",      "wear.longest=72 mm"};
+    all.insert(all.end(), more.begin(), more.end());
+    return resolve_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml", all);
+  };
+  const ResolvedScene near = resolved({});
+  EXPECT_EQ(short_room(near.scene, room_of_passage0(near, 1), 1), "");
+  const double room = room_of_passage0(near, 100);
+  EXPECT_DOUBLE_EQ(room, 0.2e-3);
+  const std::string said = short_room(near.scene, room, 100);
+  EXPECT_NE(said.find("room for a corrugation of 0.2 mm"), std::string::npos) << said;
+  EXPECT_NE(said.find("a later solution_zone.start leaves more room"), std::string::npos) << said;
+  const Scene far = resolved({"motion.run_up=0.1 m"}).scene;
+  EXPECT_NE(short_room(far, room, 100).find("a longer motion.run_up leaves"), std::string::npos);
 }
 
 TEST(Development, TheProfileShowsTheShortestWaves) {

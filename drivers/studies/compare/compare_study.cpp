@@ -11,6 +11,7 @@
 #include "drivers/engine/model/sections.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/figure_parts.hpp"
+#include "drivers/results/statistics_json.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/compare/curve_comparison.hpp"
 #include "io/files/output_file.hpp"
@@ -25,12 +26,7 @@ namespace tread {
 namespace {
 
 std::optional<double> length_of(const char* option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  try {
-    return parse_quantity(text, kLength);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} \"{}\": {}", option, text, error.what()));
-  }
+  return text.empty() ? std::nullopt : std::optional(parse_option(option, text, kLength));
 }
 
 ComparisonOptions comparison_options(const CompareOptions& options) {
@@ -84,10 +80,6 @@ std::string stretch_of(const Outcome& o) {
       o.choice.mean > 0 ? fmt::format(", both averaged over {} mm", readable(1e3 * o.choice.mean)) : "";
   return fmt::format("x = {:.4f} to {:.4f} m, {} samples of the run{}", o.found.x.front(), o.found.x.back(),
                      o.found.x.size(), means);
-}
-
-Json statistics_json(const Statistics& s) {
-  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
 }
 
 Json comparison_json(const Outcome& o, const std::string& force) {

@@ -47,11 +47,10 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Progress progress(options.quiet);
   std::optional<double> room;
   if (!std::filesystem::exists(options.output / kKeptScene)) {
-    if (options.from.empty())
-      room = room_of_passage0(resolved, options.passages);
-    else if (const std::string outgrown = outgrown_room(resolved.scene, options.from, options.passages);
-             !outgrown.empty())
-      progress.say("[develop] warning: " + outgrown);
+    if (options.from.empty()) room = room_of_passage0(resolved, options.passages);
+    const std::string outgrown = room ? short_room(resolved.scene, *room, options.passages)
+                                      : outgrown_room(resolved.scene, options.from, options.passages);
+    if (!outgrown.empty()) progress.say("[develop] warning: " + outgrown);
   }
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");

@@ -22,7 +22,6 @@ constexpr double kElementsPerWave = 4;  ///< least number of elements in a wave 
 constexpr double kElementsAcross = 2;   ///< elements across within which the work counts as noise
 constexpr double kWayBeyond = 0.02;     ///< least distance that the wheel rolls beyond the corrugation [m]
 constexpr double kTellingDepth = 0.25;  ///< least depth of a telling band, over that of the deepest band
-constexpr double kTellingCoherence = 0.5;
 
 void require(bool holds, const std::string& message) {
   if (!holds) throw InputError("tread develop: " + message);
@@ -179,8 +178,8 @@ std::vector<BandOutcome> outcome(const Development& development) {
     band.per_wear = band.first_growth / wear;
     band.lag = first[i].lag();
     band.coherence = first[i].coherence;
-    band.telling =
-        band.before >= kTellingDepth * deepest_before->depth && band.coherence >= kTellingCoherence;
+    band.telling = band.before >= kTellingDepth * deepest_before->depth && band.before > first[i].leakage &&
+                   band.coherence.value_or(1) >= kTellingCoherence;
     bands.push_back(band);
   }
   return bands;

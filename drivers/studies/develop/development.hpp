@@ -12,6 +12,9 @@
 namespace tread {
 
 /// Wear coefficient, wavelengths that wear, and profile of a development.
+/// Least coherence of a telling band of several lines. [theory.md, eq. W5]
+inline constexpr double kTellingCoherence = 0.5;
+
 struct WearPlan {
   double per_work = 0;  ///< volume worn off per frictional work [m3/J]
   double change = 0;    ///< largest change of the depth by one simulated passage [-]
@@ -58,15 +61,15 @@ struct Development {
 
 /// Outcome of a band over all passages.
 struct BandOutcome {
-  double wavelength = 0;         ///< [m]
-  double before = 0, after = 0;  ///< root mean square depth [m]
-  double growth = 0;             ///< logarithmic growth by a real passage, from the profiles
-  double first_growth = 0;       ///< logarithmic growth by the work of the first passage
-  double last_growth = 0;        ///< logarithmic growth by the work of the last passage
-  double per_wear = 0;           ///< first_growth over the depth that a passage wears off evenly [1/m]
-  double lag = 0;                ///< lag of the first passage's work past the trough, in waves
-  double coherence = 0;          ///< coherence of the first passage
-  bool telling = false;          ///< true if the profile has enough of the band to tell a response
+  double wavelength = 0;            ///< [m]
+  double before = 0, after = 0;     ///< root mean square depth [m]
+  double growth = 0;                ///< logarithmic growth by a real passage, from the profiles
+  double first_growth = 0;          ///< logarithmic growth by the work of the first passage
+  double last_growth = 0;           ///< logarithmic growth by the work of the last passage
+  double per_wear = 0;              ///< first_growth over the depth that a passage wears off evenly [1/m]
+  double lag = 0;                   ///< lag of the first passage's work past the trough, in waves
+  std::optional<double> coherence;  ///< coherence of the first passage; absent for a single line
+  bool telling = false;             ///< true if the profile has enough of the band to tell a response
 };
 
 /// Outcomes of all bands, longest waves first; empty before the first passage.

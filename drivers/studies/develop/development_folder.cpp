@@ -53,7 +53,8 @@ std::string fork_table(const Scene& scene) {
 
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
   if (!fs::exists(folder / kKeptScene)) return;
-  const std::string other = difference(scene_content(resolved), kept_scene(folder).content);
+  const std::string other =
+      difference(scene_content(resolved), kept_scene(folder, resolved.source.files).content);
   if (!other.empty())
     throw InputError(
         fmt::format("{} holds the development of another scene: {}; choose another folder with -o",
@@ -144,14 +145,19 @@ std::vector<WorkRow> read_rows(const fs::path& path) {
 }
 
 /// Throws InputError where the corrugation of the passage in `folder` is deeper than `room`, for which
-/// passage 0 has searched the surface [m].
-void require_room(const fs::path& folder, const Scene& passage, double room, int passages) {
+/// passage 0 has searched the surface [m]. `resolved`: scene of the development.
+void require_room(const fs::path& folder, const Scene& passage, double room, const ResolvedScene& resolved,
+                  int passages) {
   const double deepest = corrugation_depth(passage);
   if (deepest <= room) return;
+  const std::string still_short = short_room(resolved.scene, room_of_passage0(resolved, passages), passages);
+  const std::string way_out = still_short.empty()
+                                  ? fmt::format(", where passage 0 leaves room for all {} passages", passages)
+                                  : " and another scene: " + still_short;
   throw InputError(
       fmt::format("the corrugation of {} is {:.4g} mm deep, but passage 0 has room for {:.4g} mm; begin in "
-                  "another folder with -o, where passage 0 leaves room for all {} passages",
-                  folder.string(), 1e3 * deepest, 1e3 * room, passages));
+                  "another folder with -o{}",
+                  folder.string(), 1e3 * deepest, 1e3 * room, way_out));
 }
 
 Error failure(const fs::path& folder, const PointStatus& status) {
@@ -241,10 +247,11 @@ void DevelopmentFolder::roll(int number, const Development* before, Progress& pr
   point.content = scene_content(point.resolved);
   point.folder = run_path(number);
   point.from = number > 0 && options_.from.empty() ? run_path(0).string() : options_.from;
-  point.status = look_into(point.folder, point.content);
+  point.status = look_into(point.folder, point.content, point.resolved.source.files);
   if (point.status.foreign) throw failure(point.folder, point.status);
   if (number > 0 && options_.from.empty())
-    require_room(point.folder, point.resolved.scene, depth_room(kept_scene(run_path(0)).resolved.scene),
+    require_room(point.folder, point.resolved.scene,
+                 depth_room(kept_scene(run_path(0), resolved_.source.files).resolved.scene), resolved_,
                  options_.passages);
   plan.points.push_back(std::move(point));
   const StudyLabel label{"develop", number, options_.passages - number};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "io/report/markup.hpp"
@@ -15,6 +16,11 @@ namespace tread {
 namespace {
 
 constexpr double kMillion = 1e6;  ///< number of real passages for which growth is stated
+
+/// Empty for a band with one line.
+std::string coherence_text(const std::optional<double>& coherence, int digits) {
+  return coherence ? fmt::format("{:.{}f}", *coherence, digits) : "";
+}
 
 std::vector<double> scaled(const std::vector<double>& values, double scale) {
   std::vector<double> result = values;
@@ -204,9 +210,9 @@ std::string spectra_csv(const Development& d) {
   double before = 0;
   for (std::size_t k = 0; k < d.passages.size(); ++k) {
     for (const GrowthBand& band : d.passages[k].bands)
-      text += fmt::format("{},{:.6g},{:g},{:.6g},{:.6g},{:.6g},{:.4f},{:.6g}\n", k + 1, before,
-                          band.wavelength, band.depth, band.response.real(), band.response.imag(),
-                          band.coherence, d.plan.per_work * band.response.real());
+      text += fmt::format("{},{:.6g},{:g},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", k + 1, before, band.wavelength,
+                          band.depth, band.response.real(), band.response.imag(),
+                          coherence_text(band.coherence, 4), d.plan.per_work * band.response.real());
     before += d.passages[k].passages;
   }
   return text;
@@ -218,9 +224,9 @@ std::string growth_csv(const Development& d) {
       "growth_by_first_work [1/passage],growth_by_last_work [1/passage],growth_per_even_wear [1/m],"
       "lag_of_work [waves],coherence [-],telling\n";
   for (const BandOutcome& b : outcome(d))
-    text += fmt::format("{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{:.4f},{}\n", b.wavelength,
+    text += fmt::format("{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{}\n", b.wavelength,
                         b.before, b.after, b.growth, b.first_growth, b.last_growth, b.per_wear, b.lag,
-                        b.coherence, b.telling ? 1 : 0);
+                        coherence_text(b.coherence, 4), b.telling ? 1 : 0);
   return text;
 }
 
@@ -240,7 +246,7 @@ std::string development_json(const Development& d) {
                              {"growth_by_last_work_per_passage", b.last_growth},
                              {"growth_per_even_wear_per_m", b.per_wear},
                              {"lag_of_work_waves", b.lag},
-                             {"coherence", b.coherence},
+                             {"coherence", number_or_null(b.coherence)},
                              {"telling", b.telling}});
   return json_text(json);
 }
@@ -262,7 +268,7 @@ Table growth_table(const Development& d) {
     table.rows.push_back({readable(1e3 * b.wavelength) + (b.telling ? "" : " *"), readable(1e6 * b.before, 3),
                           readable(1e6 * b.after, 3), growth(b.growth), growth(b.first_growth),
                           growth(b.last_growth), fmt::format("{:+.3g}", 1e-3 * b.per_wear),
-                          fmt::format("{:+.2f}", b.lag), fmt::format("{:.2f}", b.coherence)});
+                          fmt::format("{:+.2f}", b.lag), b.coherence ? coherence_text(b.coherence, 2) : "–"});
   }
   return table;
 }
@@ -277,7 +283,10 @@ std::string verdict(const Development& d) {
       "the logarithm of their depth per mm of even wear",
       readable(1e3 * band->wavelength), std::abs(band->lag), band->lag > 0 ? "past" : "before",
       feeds ? "feeds" : "alleviates", 1e-3 * band->per_wear);
-  if (!band->telling) text += fmt::format("; with a coherence of {:.2f} that tells little", band->coherence);
+  if (!band->telling)
+    text += band->coherence.value_or(1) < kTellingCoherence
+                ? fmt::format("; with a coherence of {:.2f} that tells little", *band->coherence)
+                : "; the profile had too little of these waves to tell";
   return text + ".";
 }
 

@@ -3,6 +3,7 @@
 // Wear]
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "drivers/studies/develop/wear.hpp"
@@ -15,7 +16,11 @@ struct GrowthBand {
   double depth = 0;       ///< root mean square depth [m]
   /// Work per depth, H [J/m3]. With a positive real part the work is larger in troughs, and the wave grows.
   std::complex<double> response;
-  double coherence = 0;  ///< share of the work in the band that H explains [-]; 1 for a band with one line
+  /// Share of the work in the band that H explains [-]; absent for a band with one line, which H meets.
+  std::optional<double> coherence;
+  /// Root mean square depth that the largest line of the deepest band may leave in this band where the ends
+  /// fade [m]; 0 in the deepest band itself.
+  double leakage = 0;
 
   /// Distance of the work's maximum past the trough in the direction of rolling, in waves, -0.5 to 0.5.
   double lag() const;

@@ -22,6 +22,12 @@ double grown_depth(const Scene& scene, int passages) {
   return std::min(growth * corrugation_depth(scene), find_key("contact.depth_room")->range.high);
 }
 
+/// Value that gives the wheel of passage 0 more way before the kept state, "a longer motion.run_up".
+const char* more_way(const Scene& scene) {
+  if (scene.motion->run_up) return "a longer motion.run_up";
+  return scene.forks && scene.forks->at ? "a later corrugation.start" : "a later solution_zone.start";
+}
+
 /// Sentence on a state of passage 0, with so much room [m], that is kept too late for the other passages;
 /// empty where it is in time.
 std::string late_state(const ResolvedScene& resolved, double room) {
@@ -48,12 +54,10 @@ std::string late_state(const ResolvedScene& resolved, double room) {
         "solution_zone.start = {:.4g} mm: all passages begin with a state that is kept before "
         "the patch comes near the zone, but the wheel starts at x = {:.4g} mm and needs a way of more than "
         "{:.4g} mm up to it; state {}, or the time of the state by forks.at",
-        1e3 * place, 1e3 * smooth.start_x(), 1e3 * approach.before,
-        motion.run_up ? "a longer motion.run_up" : "a later solution_zone.start");
+        1e3 * place, 1e3 * smooth.start_x(), 1e3 * approach.before, more_way(resolved.scene));
   const std::string limit =
       latest > 0 ? fmt::format("after {0:.6g} ms; state at most {0:.6g} ms", std::floor(1e6 * latest) / 1e3)
-                 : fmt::format("at the start; state {}",
-                               motion.run_up ? "a longer motion.run_up" : "a later corrugation.start");
+                 : fmt::format("at the start; state {}", more_way(resolved.scene));
   return fmt::format(
       "forks.at = {:.6g} ms: all passages begin with the state of that time, but the patch may meet the "
       "corrugation, which begins at x = {:.4g} mm, {}",
@@ -70,6 +74,16 @@ double room_of_passage0(const ResolvedScene& resolved, int passages) {
   const std::string late = late_state(resolved, least);
   if (!late.empty()) throw InputError("tread develop: " + late);
   return least;
+}
+
+std::string short_room(const Scene& scene, double room, int passages) {
+  const double grown = grown_depth(scene, passages);
+  if (grown <= room) return "";
+  return fmt::format(
+      "passage 0 has room for a corrugation of {:.4g} mm, its wheel no way for more; {} passages may make "
+      "this one {:.4g} mm deep, and a passage over a deeper one than the room is refused; {} leaves more "
+      "room",
+      1e3 * room, passages, 1e3 * grown, more_way(scene));
 }
 
 std::string outgrown_room(const Scene& scene, const std::string& from, int passages) {

@@ -13,6 +13,10 @@ namespace tread {
 /// stated forks.at.
 double room_of_passage0(const ResolvedScene& resolved, int passages);
 
+/// Sentence, with the way out, on waves of so many passages that may outgrow the `room` that passage 0 leaves
+/// [m], as room_of_passage0() has it; empty where they cannot.
+std::string short_room(const Scene& scene, double room, int passages);
+
 /// Sentence on waves of so many passages that may outgrow the room of the run `from`, as in fork_from();
 /// empty where they cannot. Throws InputError where that run has no room for the scene's corrugation.
 std::string outgrown_room(const Scene& scene, const std::string& from, int passages);

@@ -69,7 +69,7 @@ FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
         fmt::format("--reference {}: neither a point of this dial nor the folder of a finished run (its "
                     "summary.json is missing); --list names the points",
                     options.reference));
-  const KeptScene kept = kept_scene(folder);
+  const KeptScene kept = kept_scene(folder, plan.points.front().resolved.source.files);
   const std::vector<std::string> varied = varied_keys(plan);
   const std::string apart =
       difference(passage(plan.points.front().content, varied), passage(kept.content, varied));

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
 #include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/results/growing_files.hpp"
@@ -42,13 +43,23 @@ bool along_the_rail(const Figure& figure) {
   return figure.x_range && figure.x_label.find("[m]") != std::string::npos;
 }
 
-/// Adds the corrugated surface below the curves if it is common to all runs.
-void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
-  const Corrugation first = runs.front().corrugation();
-  if (first.smooth() || !along_the_rail(figure)) return;
+/// Surfaces on the corrugation's middle line.
+ShownSurfaces surfaces_of(const FinishedRun& run) {
+  return {run.corrugation(), rail_surface(run.scene), wheel_surface(run.scene), 0};
+}
+
+/// Adds the surfaces below the curves if they are common to all runs.
+void add_surfaces(const std::vector<FinishedRun>& runs, Figure& figure) {
+  if (!along_the_rail(figure)) return;
+  const auto heights = [&](const FinishedRun& run) {
+    std::vector<std::vector<double>> list;
+    for (const Series& series : running_surfaces(surfaces_of(run), *figure.x_range)) list.push_back(series.y);
+    return list;
+  };
+  const auto first = heights(runs.front());
   for (const FinishedRun& run : runs)
-    if (run.corrugation().last() != first.last() || run.corrugation().deepest() != first.deepest()) return;
-  figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
+    if (heights(run) != first) return;
+  add_surface_panel(surfaces_of(runs.front()), 70, figure);
 }
 
 /// Ends the abscissa as the paper does: traction carries slow wheels farther than fast ones.
@@ -91,7 +102,7 @@ Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const P
   end_with_solution_zone(found.front().scene, figure);
   if (wanted.one_panel) overlay(figure);
   if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
-  add_surface(found, figure);
+  add_surfaces(found, figure);
   return figure;
 }
 
@@ -123,7 +134,7 @@ DrawnFigure drawn_snapshots(const std::string& title, const FinishedRun& run) {
   const std::filesystem::path path = run.folder / kPatchFile;
   const PatchAxes axes = read_patch_axes(path);
   const std::size_t axis = nearest(axes.y, run.number("surface.axis_y_m").value_or(0));
-  const PatchSnapshots snapshots{axes, static_cast<int>(axis), *run.scene.contact, run.corrugation(),
+  const PatchSnapshots snapshots{axes, static_cast<int>(axis), *run.scene.contact, surfaces_of(run),
                                  read_patch(path, places_of(run))};
   if (snapshots.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
   Figure figure = snapshots_figure(snapshots);

@@ -15,22 +15,8 @@ namespace tread {
 namespace {
 
 constexpr double kReference = 1e-6;  // [m]
-constexpr double kWavesInSegment = 4;
-constexpr double kSamplesInWave = 2.5;
-
-double edge(double decibels_tenth) {
-  return std::pow(10.0, decibels_tenth);
-}
 
 }  // namespace
-
-double RoughnessBand::shortest() const {
-  return middle * edge(-0.05);
-}
-
-double RoughnessBand::longest() const {
-  return middle * edge(0.05);
-}
 
 const std::vector<RoughnessBand>& roughness_bands() {
   static const std::vector<RoughnessBand> bands = [] {
@@ -42,7 +28,8 @@ const std::vector<RoughnessBand>& roughness_bands() {
                                     {4, -10.4},   {3.15, -11.0}};
     std::vector<RoughnessBand> list;
     for (const auto& [nominal, limit] : kTable)
-      list.push_back({1e-3 * nominal, 1e-3 * edge(std::round(10 * std::log10(nominal)) / 10), limit});
+      list.push_back(
+          {{1e-3 * nominal, 1e-3 * std::pow(10.0, std::round(10 * std::log10(nominal)) / 10)}, limit});
     return list;
   }();
   return bands;
@@ -55,19 +42,19 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
   levels.segment_length = static_cast<double>(count) * profile.spacing;
   const double line = 1 / levels.segment_length;  // spacing of the lines [1/m]
   const auto resolved = [&](const RoughnessBand& band) {
-    return kWavesInSegment * band.nominal <= levels.segment_length * (1 + 1e-9) &&
-           band.shortest() >= kSamplesInWave * profile.spacing;
+    return kWavesInRecord * band.nominal <= levels.segment_length * (1 + 1e-9) &&
+           band.low() >= kSamplesInWave * profile.spacing;
   };
   const std::vector<RoughnessBand>& bands = roughness_bands();
   double finest = 0;
   for (const RoughnessBand& band : bands)
-    if (resolved(band)) finest = std::max(finest, 1 / band.shortest());
+    if (resolved(band)) finest = std::max(finest, 1 / band.low());
   if (finest == 0)
     throw InputError(
         fmt::format("no band of 400 to 3.15 mm fits a record of {:.4g} m with a sample every {:.3g} mm: a "
                     "segment must hold "
                     "{} waves, a wave {} samples; measure longer or finer, or state a longer --segment",
-                    profile.length(), 1e3 * profile.spacing, kWavesInSegment, kSamplesInWave));
+                    profile.length(), 1e3 * profile.spacing, kWavesInRecord, kSamplesInWave));
 
   const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(std::lround(finest / line)) + 2);
   const std::size_t hop = std::max<std::size_t>(1, count / 2);
@@ -88,7 +75,7 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
     }
     double square = 0;
     for (const std::vector<double>& s : spectra)
-      square += band_power(s, line, 1 / band.longest(), 1 / band.shortest()) / static_cast<double>(segments);
+      square += band_power(s, line, 1 / band.high(), 1 / band.low()) / static_cast<double>(segments);
     levels.level.emplace_back(10 * std::log10(square / (kReference * kReference)));
   }
   return levels;

@@ -4,18 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/math/spectrum.hpp"
 #include "drivers/studies/roughness/roughness_profile.hpp"
 
 namespace tread {
 
-/// A one-third octave band of wavelength.
-struct RoughnessBand {
-  double nominal = 0;  ///< middle as the standard names it [m]
-  double middle = 0;   ///< exact middle, 10^(n/10) mm [m]
-  double limit = 0;    ///< limit of ISO 3095:2013 [dB re 1 um]
-
-  double shortest() const;  ///< [m]
-  double longest() const;   ///< [m]
+/// A one-third octave band of wavelength [m].
+struct RoughnessBand : ThirdOctave {
+  double limit = 0;  ///< limit of ISO 3095:2013 [dB re 1 um]
 };
 
 /// Bands of 400 mm to 3.15 mm, longest first.

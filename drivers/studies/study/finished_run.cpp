@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/engine/model/sections.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/text/text_file.hpp"
@@ -22,10 +24,29 @@ namespace {
                   error.what(), folder.string()));
 }
 
+/// Returns false if the wheel has not come to the corrugation over which the summary is to evaluate the run.
+bool has_reached(const FinishedRun& run) {
+  const std::optional<double> last = run.number("evaluated_x_m.1");
+  const Corrugation corrugation = run.corrugation();
+  if (!last || corrugation.smooth() || stands(run.scene)) return true;
+  return *last >= evaluated_stretch(run.scene, corrugation).first;
+}
+
+/// Returns true for a number of the summary that tells of the evaluated stretch.
+bool is_evaluated(const std::string& path) {
+  constexpr std::array kEvaluated = {"vertical_force_N.",    "longitudinal_force_N.", "surface.",
+                                     "creepage_max_percent", "full_slip_share",       "evaluated_x_m."};
+  return std::ranges::any_of(kEvaluated, [&](const char* begin) { return path.starts_with(begin); });
+}
+
 }  // namespace
 
 Corrugation FinishedRun::corrugation() const {
   return scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
+}
+
+std::optional<double> FinishedRun::result(const std::string& path) const {
+  return reached || !is_evaluated(path) ? number(path) : std::nullopt;
 }
 
 FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& scene,
@@ -33,7 +54,9 @@ FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& 
   constexpr std::size_t kLargest = 1 << 24;  // [B]
   const std::filesystem::path summary = folder / "summary.json";
   try {
-    return {label, folder, scene, parse_json(read_text_file(summary, kLargest), summary.string())};
+    FinishedRun run{label, folder, scene, parse_json(read_text_file(summary, kLargest), summary.string())};
+    run.reached = has_reached(run);
+    return run;
   } catch (const InputError& error) {
     refuse_damaged(folder, error);
   }
@@ -66,15 +89,18 @@ std::vector<std::string> warnings_in(const JsonRecord& summary) {
   return texts;
 }
 
+void add_warnings(const std::vector<std::string>& texts, const std::string& label,
+                  std::vector<SharedWarning>& all) {
+  for (const std::string& text : texts) {
+    auto known = std::ranges::find(all, text, &SharedWarning::text);
+    if (known == all.end()) known = all.insert(known, SharedWarning{text, {}});
+    known->labels.push_back(label);
+  }
+}
+
 std::vector<SharedWarning> shared_warnings(const std::vector<FinishedRun>& runs) {
   std::vector<SharedWarning> all;
-  for (const FinishedRun& run : runs)
-    for (const std::string& text : warnings_in(run.summary)) {
-      auto known = std::find_if(all.begin(), all.end(),
-                                [&](const SharedWarning& warning) { return warning.text == text; });
-      if (known == all.end()) known = all.insert(known, SharedWarning{text, {}});
-      known->labels.push_back(run.label);
-    }
+  for (const FinishedRun& run : runs) add_warnings(warnings_in(run.summary), run.label, all);
   return all;
 }
 
@@ -141,7 +167,7 @@ const std::vector<ResultColumn>& result_columns() {
 }
 
 std::optional<double> result_of(const FinishedRun& run, const ResultColumn& column) {
-  const std::optional<double> value = run.number(column.path);
+  const std::optional<double> value = run.result(column.path);
   return value ? std::optional(column.si_scale * *value) : std::nullopt;
 }
 

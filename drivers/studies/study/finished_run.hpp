@@ -17,10 +17,13 @@ struct FinishedRun {
   std::string label;  ///< label in figures
   std::filesystem::path folder;
   Scene scene;
-  JsonRecord summary;  ///< content of summary.json
+  JsonRecord summary;   ///< content of summary.json
+  bool reached = true;  ///< false if the wheel has not come to the corrugation of the scene
 
   /// The number of the summary at the path, "vertical_force_N.max".
   std::optional<double> number(const std::string& path) const { return number_in(summary, path); }
+  /// The same without numbers of a corrugation that the wheel has not reached.
+  std::optional<double> result(const std::string& path) const;
   /// Corrugation with its centre at y = 0, on which no figure along the rail depends.
   Corrugation corrugation() const;
   /// Returns true if a wheel has rolled over a rail: forces and surface exist.
@@ -43,6 +46,10 @@ struct SharedWarning {
   std::string text;
   std::vector<std::string> labels;
 };
+
+/// Adds the texts of `label`, each text once, to `all`.
+void add_warnings(const std::vector<std::string>& texts, const std::string& label,
+                  std::vector<SharedWarning>& all);
 
 /// Distinct warnings of the runs in order of appearance.
 std::vector<SharedWarning> shared_warnings(const std::vector<FinishedRun>& runs);

@@ -25,6 +25,7 @@ struct PlannedPoint {
   PointStatus status;
   std::optional<Estimate> cost;       ///< cost of a point that is not done
   double saved_seconds = 0;           ///< time that other points compute for it; not in the cost [s]
+  std::vector<std::string> warnings;  ///< resolution_warnings() of a point that is to run
   std::optional<std::size_t> shared;  ///< index in StudyPlan::shared
   bool keeps_state = false;           ///< true if the others of its StudyPlan::shared begin with its state
 

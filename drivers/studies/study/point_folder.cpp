@@ -122,9 +122,10 @@ std::string reason(const fs::path& folder, const PointProcess& process) {
 }
 
 /// Finds why the run in the folder is not that of the scene, and which state the run keeps.
-void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
+void look_at_scene(const fs::path& folder, const SceneContent& scene, const SceneFiles& files,
+                   PointStatus& status) {
   try {
-    const KeptScene there = kept_scene(folder);
+    const KeptScene there = kept_scene(folder, files);
     status.why = difference(scene, there.content);
     if (there.resolved.scene.forks) status.keeps_at = there.resolved.scene.forks->at;
     status.room = depth_room(there.resolved.scene);
@@ -183,13 +184,13 @@ SceneContent process_values(const ResolvedScene& scene) {
   return content_of(scene, [](Effects effects) { return effects.only({Effect::process, Effect::stop}); });
 }
 
-PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
+PointStatus look_into(const fs::path& folder, const SceneContent& scene, const SceneFiles& files) {
   PointStatus status;
   const CheckpointFolder checkpoints(folder / "checkpoint");
   const bool begun = checkpoints.holds_run();
   const bool finished = !begun && fs::exists(folder / "summary.json");
   const bool stated = fs::exists(folder / kKeptScene);
-  if (stated && (begun || finished)) look_at_scene(folder, scene, status);
+  if (stated && (begun || finished)) look_at_scene(folder, scene, files, status);
   if (finished) {
     status.state = PointState::done;
   } else if (fs::exists(folder / kFailure)) {

@@ -41,8 +41,10 @@ struct PointStatus {
 /// and the intervals of progress and checkpoints.
 SceneContent process_values(const ResolvedScene& scene);
 
-/// Status of the folder, which need not exist. A run in it counts whoever began it, if its scene is this one.
-PointStatus look_into(const std::filesystem::path& folder, const SceneContent& scene);
+/// Status of the folder, which need not exist. A run in it counts whoever began it, if its scene is this one,
+/// which names `files`.
+PointStatus look_into(const std::filesystem::path& folder, const SceneContent& scene,
+                      const SceneFiles& files = {});
 
 /// Text of the folder's status.json; empty if there is none.
 std::string shown_status(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -29,6 +30,8 @@
 namespace tread {
 
 namespace {
+
+constexpr std::size_t kMostShown = 5;  ///< warnings in the log
 
 int stated(int option, int study) {
   return option > 0 ? option : study;
@@ -137,6 +140,9 @@ std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
     if (const std::string begins = beginning_text(plan, point); !begins.empty()) one["begins"] = begins;
     json["points"].push_back(one);
   }
+  json["warnings"] = Json::array();
+  for (const auto& [text, points] : planned_warnings(plan))
+    json["warnings"].push_back({{"text", text}, {"points", points}});
   return json_text(json);
 }
 
@@ -190,23 +196,36 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
   return std::nullopt;
 }
 
-/// The runs' warnings, each once; empty if there is none.
-std::string warning_text(const std::vector<FinishedRun>& runs) {
-  constexpr std::size_t kMostShown = 5;
-  const std::vector<SharedWarning> warnings = shared_warnings(runs);
-  if (warnings.empty()) return "";
-  const auto warned =
-      std::ranges::count_if(runs, [](const FinishedRun& run) { return !warnings_in(run.summary).empty(); });
-  std::string text = fmt::format("{} of {} finished points have warnings:", warned, runs.size());
-  for (std::size_t i = 0; i < std::min(warnings.size(), kMostShown); ++i) {
+/// A line for each of the first warnings, with its points.
+std::string warning_lines(const std::vector<SharedWarning>& warnings, std::size_t most, const char* rest) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i) {
     const auto& [sentence, labels] = warnings[i];
     const std::string others = labels.size() > 1 ? fmt::format(" and {} more", labels.size() - 1) : "";
     text += fmt::format("\n  {}{}: {}", labels.front(), others, sentence);
   }
-  if (warnings.size() > kMostShown)
-    text += fmt::format("\n  {} more: see report.html in the folders of the points",
-                        warnings.size() - kMostShown);
+  if (warnings.size() > most) text += fmt::format("\n  {} more: see {}", warnings.size() - most, rest);
   return text;
+}
+
+/// Warnings of the runs to come; empty if there is none.
+std::string plan_warning_text(const StudyPlan& plan, std::size_t most) {
+  const std::vector<SharedWarning> warnings = planned_warnings(plan);
+  if (warnings.empty()) return "";
+  const auto warned =
+      std::ranges::count_if(plan.points, [](const PlannedPoint& point) { return !point.warnings.empty(); });
+  return fmt::format("{} of {} points have warnings:{}", warned, plan.points.size(),
+                     warning_lines(warnings, most, "--list"));
+}
+
+/// Warnings of the finished runs; empty if there is none.
+std::string warning_text(const std::vector<FinishedRun>& runs) {
+  const std::vector<SharedWarning> warnings = shared_warnings(runs);
+  if (warnings.empty()) return "";
+  const auto warned =
+      std::ranges::count_if(runs, [](const FinishedRun& run) { return !warnings_in(run.summary).empty(); });
+  return fmt::format("{} of {} finished points have warnings:{}", warned, runs.size(),
+                     warning_lines(warnings, kMostShown, "report.html in the folders of the points"));
 }
 
 /// The command of a command line: "paper" of "tread paper -o out".
@@ -269,12 +288,16 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   mind_memory(plan, options);
   const StudyCost cost = total_cost(plan);
   if (options.list) {
+    const std::string warnings = plan_warning_text(plan, std::numeric_limits<std::size_t>::max());
     fmt::print("{}", options.json ? plan_json(plan, cost)
-                                  : plain_text(plan_table(plan)) + "\n" + cost_text(plan, cost) + "\n");
+                                  : plain_text(plan_table(plan)) + "\n" + cost_text(plan, cost) + "\n" +
+                                        (warnings.empty() ? "" : "\n" + warnings + "\n"));
     return std::nullopt;
   }
   require_disk(plan);
   leave_scene(study);
+  if (const std::string warnings = plan_warning_text(plan, kMostShown); !warnings.empty())
+    progress.say(fmt::format("[{}] {}", command, warnings));
   if (!options.slurm.empty()) {
     write_job_array(plan, options.slurm, options.retry, options.origin.command);
     return std::nullopt;

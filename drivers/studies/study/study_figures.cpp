@@ -158,7 +158,7 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
         Series series{label, {}, {}, stroke_of(label), colour};
         if (!name.empty()) series.label += fmt::format(", {}", name);
         for (const TrendRun& run : group)
-          if (const auto value = run.run->number(path)) {
+          if (const auto value = run.run->result(path)) {
             series.x.push_back(run.x);
             series.y.push_back(wanted.scale * *value);
           }

@@ -13,6 +13,7 @@
 
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
@@ -114,18 +115,17 @@ bool failed_by_other_penetration(const PlannedPoint& point) {
          stated(there) != stated(process_values(point.resolved));
 }
 
-/// Calls `act(point)` for each point and collects its errors.
-void for_each_point(StudyPlan& plan, PointProblems& problems, const std::function<void(PlannedPoint&)>& act) {
-  for (PlannedPoint& point : plan.points) {
-    try {
-      act(point);
-    } catch (const ProblemsError& error) {
-      for (const Problem& problem : error.problems) problems.add(point, problem);
-    } catch (const InputError& error) {
-      problems.add(point, {plan.study.scene.string(), 0, 0, "", error.what()});
-    } catch (const ResourceError& error) {
-      throw ResourceError(fmt::format("{}: {}", point.name, error.what()));
-    }
+/// Calls `act(point)` and collects its errors.
+void try_point(PlannedPoint& point, const Study& study, PointProblems& problems,
+               const std::function<void(PlannedPoint&)>& act) {
+  try {
+    act(point);
+  } catch (const ProblemsError& error) {
+    for (const Problem& problem : error.problems) problems.add(point, problem);
+  } catch (const InputError& error) {
+    problems.add(point, {study.scene.string(), 0, 0, "", error.what()});
+  } catch (const ResourceError& error) {
+    throw ResourceError(fmt::format("{}: {}", point.name, error.what()));
   }
 }
 
@@ -157,6 +157,22 @@ Estimate prolonged(Estimate cost, double ratio) {
   cost.disk.results = times(cost.disk.results);
   cost.disk.forks = times(cost.disk.forks);
   return cost;
+}
+
+/// Builds the model of points that have the same one, and fills their costs and warnings.
+void project_alike(StudyPlan& plan, const std::vector<PlannedPoint*>& points) {
+  const PlannedPoint& first = *points.front();
+  Model model = scene_model(keeping_scene(plan, first), first.resolved);
+  const double reach = model.contact ? model.contact->reach() : 0;
+  const Estimate cost = estimate(model, file_bytes(first.resolved.source));
+  const double duration = duration_of(first);
+  for (PlannedPoint* point : points) {
+    const Scene& scene = point->resolved.scene;
+    point->cost = prolonged(cost, duration > 0 ? duration_of(*point) / duration : 1);
+    if (scene.contact) place_state(plan, *point, approach_of(scene, reach));
+    model.scene = scene;
+    point->warnings = resolution_warnings(model);
+  }
 }
 
 /// Subtracts from the costs the work of other points: preloads that the cache will have, the rolling before a
@@ -219,10 +235,11 @@ StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
                                  ? load_scene_source(study.scene)
                                  : SceneSource{study.scene.string(), study.scene_text, folder};
   for (const StudyPoint& point : study.points) plan.points.push_back(planned(study, point, folder));
-  for_each_point(plan, problems, [&](PlannedPoint& point) {
-    point.resolved = resolve_scene(source, point.overrides);
-    point.content = scene_content(point.resolved);
-  });
+  for (PlannedPoint& one : plan.points)
+    try_point(one, study, problems, [&](PlannedPoint& point) {
+      point.resolved = resolve_scene(source, point.overrides);
+      point.content = scene_content(point.resolved);
+    });
   problems.throw_if_any();
   refuse_doubles(plan, problems);
   problems.throw_if_any();
@@ -247,7 +264,7 @@ void require_same_study(const StudyPlan& plan) {
 void look_into_folders(StudyPlan& plan) {
   std::string foreign;
   for (PlannedPoint& point : plan.points) {
-    point.status = look_into(point.folder, point.content);
+    point.status = look_into(point.folder, point.content, point.resolved.source.files);
     if (failed_by_other_penetration(point)) point.status.anew = false;
     if (point.status.foreign) foreign += fmt::format("\n{}: {}", point.folder.string(), point.status.why);
   }
@@ -261,29 +278,20 @@ void look_into_folders(StudyPlan& plan) {
 void project_cost(StudyPlan& plan, bool retry) {
   use_threads({std::clamp(plan.threads, 1, machine_cores()), ""});
   PointProblems problems(plan.study);
-  struct Built {
-    const PlannedPoint* point;
-    double reach = 0;  ///< of the patch [m]
-  };
-  std::map<SceneContent, Built> known;
-  for_each_point(plan, problems, [&](PlannedPoint& point) {
-    if (!point.to_run(retry)) return;
-    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point});
-    Built& built = first->second;
-    if (is_new) {
-      Model model = scene_model(keeping_scene(plan, point), point.resolved);
-      if (model.contact) built.reach = model.contact->reach();
-      point.cost = estimate(model, file_bytes(point.resolved.source));
-    } else if (const PlannedPoint& same = *built.point; same.cost) {
-      const bool rolls = duration_of(same) > 0;
-      point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
-    }
-    if (point.resolved.scene.contact)
-      place_state(plan, point, approach_of(point.resolved.scene, built.reach));
-  });
+  std::map<SceneContent, std::vector<PlannedPoint*>> alike;
+  for (PlannedPoint& point : plan.points)
+    if (point.to_run(retry)) alike[model_content(plan, point)].push_back(&point);
+  for (const auto& [content, points] : alike)
+    try_point(*points.front(), plan.study, problems, [&](PlannedPoint&) { project_alike(plan, points); });
   problems.throw_if_any();
   choose_keepers(plan, retry);
   subtract_shared(plan);
+}
+
+std::vector<SharedWarning> planned_warnings(const StudyPlan& plan) {
+  std::vector<SharedWarning> all;
+  for (const PlannedPoint& point : plan.points) add_warnings(point.warnings, point.name, all);
+  return all;
 }
 
 StudyCost total_cost(const StudyPlan& plan) {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
+#include "drivers/studies/study/finished_run.hpp"
 #include "drivers/studies/study/planned_point.hpp"
 #include "io/report/report.hpp"
 #include "io/scene/study_reader.hpp"
@@ -20,10 +22,13 @@ void require_same_study(const StudyPlan& plan);
 /// Looks into the points' folders. Throws InputError if one holds a run of another scene.
 void look_into_folders(StudyPlan& plan);
 
-/// Builds the model of every point that is to run and projects the cost with the plan's threads or one.
-/// Determines until when points share their rolling and which of them keeps the state. Throws ProblemsError
-/// if a model cannot be built.
+/// Builds the models of the points that are to run, projects their cost with the plan's threads or one, and
+/// fills their warnings. Determines until when points share their rolling and which of them keeps the state.
+/// Throws ProblemsError if a model cannot be built.
 void project_cost(StudyPlan& plan, bool retry);
+
+/// Distinct warnings of the points that are to run, in order of appearance.
+std::vector<SharedWarning> planned_warnings(const StudyPlan& plan);
 
 /// Sums over the points with a cost.
 struct StudyCost {

@@ -230,7 +230,8 @@ Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
   results.blocks.emplace_back(Text{
       "Forces, creepage and stresses: largest and smallest over the evaluated stretch, a corrugation less "
       "half a wave at each end or the solution zone of a smooth rail. Work: in a cell of 1.1 mm x 1.1 mm "
-      "on the patch's longitudinal axis there. Creepage: steady before it. Every column and more, in SI: "
+      "on the patch's longitudinal axis there. Creepage: steady before it. Where the wheel has not "
+      "reached the corrugation, all but the steady creepage are empty. Every column and more, in SI: "
       "sweep.csv."});
   report.chapters.push_back(std::move(results));
   if (auto trends = trend_chapter(plan, runs)) report.chapters.push_back(std::move(*trends));

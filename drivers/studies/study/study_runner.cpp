@@ -196,7 +196,7 @@ void StudyRunner::note(PlannedPoint& point, ExitCode code, const std::function<v
   } catch (const ResourceError& error) {
     unkept = error.what();
   }
-  point.status = look_into(point.folder, point.content);
+  point.status = look_into(point.folder, point.content, point.resolved.source.files);
   if (unkept.empty()) return;
   point.status.state = PointState::failed;
   point.status.why = unkept;
