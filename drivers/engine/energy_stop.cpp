@@ -39,6 +39,10 @@ Place fastest_node(const Model& model, ConstNodeField velocity) {
   return fastest;
 }
 
+std::string instant(double time, std::int64_t steps) {
+  return fmt::format("stopped at t = {:.6e} s (step {}): ", time, steps);
+}
+
 /// And the way out.
 std::string cause(double dt, double stable) {
   constexpr double kMargin = 0.01;
@@ -63,7 +67,7 @@ std::string cause(double dt, double stable) {
 }  // namespace
 
 std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
-  std::string text = fmt::format("stopped at t = {:.6e} s (step {}): ", stop.time, stop.steps);
+  std::string text = instant(stop.time, stop.steps);
   if (std::isfinite(stop.missed))
     text += fmt::format("{:.3g} J have {}, but only {:.3g} J were supplied", std::abs(stop.missed),
                         stop.missed > 0 ? "appeared from nothing" : "vanished", stop.supplied);
@@ -74,6 +78,17 @@ std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
       fmt::format("; fastest: part '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
                   place.part, place.at.x, place.at.y, place.at.z, place.speed);
   return text + cause(stop.dt, stable_step_of(model));
+}
+
+std::string unstable_patch_text(const Model& model, double wheel_x, double time, std::int64_t steps,
+                                double dt) {
+  const double stable = stable_step_of(model);
+  if (dt <= stable) return "";
+  return instant(time, steps) +
+         fmt::format(
+             "the patch reaches the end of the surface that is searched, with the wheel at x = {:.4f} m. ",
+             wheel_x) +
+         cause(dt, stable);
 }
 
 }  // namespace tread

@@ -22,4 +22,9 @@ struct EnergyStop {
 /// or something else) and the way out.
 std::string energy_stop_text(const Model& model, const EnergyStop& stop);
 
+/// The text where a step `dt` [s] beyond the stable one has carried the patch off the searched surface; ""
+/// for a stable step. Needs no values of other ranks, which do not know of the patch. `time` [s]
+std::string unstable_patch_text(const Model& model, double wheel_x, double time, std::int64_t steps,
+                                double dt);
+
 }  // namespace tread

@@ -163,8 +163,7 @@ void Measurements::measure_fastenings(const StepState& step) {
     double up = 0;
     for (std::size_t k = i * group; k < (i + 1) * group; ++k) {
       const SpringDampers::Element& e = elements[k];
-      if (e.component == 2)
-        up -= e.stiffness * e.stretch(step.displacement) + e.damping * e.stretch(step.velocity);
+      if (e.component == 2) up -= e.load(e.stretch(step.displacement), e.stretch(step.velocity));
     }
     values_.push_back(up);
   }

@@ -1,13 +1,14 @@
 #include "drivers/engine/simulation.hpp"
 
+#include <string>
+
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/energy_stop.hpp"
-#include "drivers/engine/fields/chosen_fields.hpp"
 #include "drivers/engine/fields/featured_nodes.hpp"
 #include "drivers/engine/start/start.hpp"
-#include "drivers/engine/start/step_limit.hpp"
 
 namespace tread {
 
@@ -169,7 +170,9 @@ void Simulation::stop() const {
 }
 
 void Simulation::stop_if_unstable() const {
-  if (dt_ > stable_step_of(*model_)) stop();
+  if (const std::string text = unstable_patch_text(*model_, wheel().origin.x, time_, steps_, dt_);
+      !text.empty())
+    throw NumericalError(text);
 }
 
 MomentumCheck Simulation::momentum_check() const {

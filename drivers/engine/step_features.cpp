@@ -10,7 +10,7 @@
 #include "drivers/engine/features/torque.hpp"
 #include "drivers/engine/features/wheel_load.hpp"
 #include "drivers/engine/features/wheel_rail_contact.hpp"
-#include "drivers/engine/model/maxwell_branches.hpp"
+#include "drivers/engine/fields/maxwell_branches.hpp"
 #include "drivers/engine/start/traction.hpp"
 
 namespace tread {

@@ -19,7 +19,6 @@ struct BasicUpdateFields {
   Real* velocity;     ///< at the half step [m/s]
   const Real* force;  ///< internal minus external [N]
 };
-using UpdateFields = BasicUpdateFields<double>;
 
 /// Loads on all nodes besides their forces.
 struct StepLoads {

@@ -10,10 +10,10 @@ void SpringDampers::apply(ConstNodeField u, ConstNodeField v, double dt, NodeFie
   TREAD_EXPECT(dt >= 0);
   for (const Element& e : elements_) {
     const double rate = e.stretch(v);
-    const double load = e.stiffness * e.stretch(u) + e.damping * rate;
+    const double load = e.load(e.stretch(u), rate);
     e.upper.add(force, e.component, load);
     e.lower.add(force, e.component, -load);
-    dissipated_ += e.damping * rate * rate * dt;
+    dissipated_ += e.loss(rate) * dt;
   }
 }
 
@@ -39,11 +39,17 @@ std::vector<Spring> SpringDampers::springs() const {
 
 double SpringDampers::energy(ConstNodeField u) const {
   double sum = 0;
-  for (const Element& e : elements_) {
-    const double stretch = e.stretch(u);
-    sum += 0.5 * e.stiffness * stretch * stretch;
-  }
+  for (const Element& e : elements_) sum += e.energy(e.stretch(u));
   return sum;
+}
+
+std::vector<std::int64_t> SpringDampers::slots() const {
+  std::vector<std::int64_t> slots;
+  for (const Element& e : elements_) {
+    e.upper.add_slots(slots);
+    e.lower.add_slots(slots);
+  }
+  return slots;
 }
 
 namespace {

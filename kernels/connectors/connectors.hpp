@@ -31,6 +31,10 @@ struct Attachment {
     for (std::size_t k = 0; k < 4; ++k)
       if (slot[k] >= 0) field[dof(slot[k], component)] += weight[k] * load;
   }
+  void add_slots(std::vector<std::int64_t>& slots) const {
+    for (const std::int64_t at : slot)
+      if (at >= 0) slots.push_back(at);
+  }
 };
 
 /// Springs and dampers between points of extruded blocks, or to the ground (fastenings).
@@ -46,6 +50,13 @@ class SpringDampers {
     double stretch(ConstNodeField field) const {
       return upper.value(field, component) - lower.value(field, component);
     }
+    /// Force with which it pulls its ends together at a stretch [m] that grows at a rate [m/s]: the law of
+    /// fastenings [N].
+    double load(double stretched, double rate) const { return stiffness * stretched + damping * rate; }
+    /// Power that the damper takes at a rate [W].
+    double loss(double rate) const { return damping * rate * rate; }
+    /// Stored energy at a stretch [m]; its second derivative is the stiffness [J].
+    double energy(double stretched) const { return 0.5 * stiffness * stretched * stretched; }
   };
   explicit SpringDampers(std::vector<Element> elements) : elements_(std::move(elements)) {}
 
@@ -55,6 +66,7 @@ class SpringDampers {
   /// force += K u + C v; the dampers' loss over dt is added to dissipated().
   void apply(ConstNodeField u, ConstNodeField v, double dt, NodeField force);
   std::vector<Spring> springs() const;
+  std::vector<std::int64_t> slots() const;           ///< of the nodes on which it acts
   double energy(ConstNodeField u) const;             ///< [J]
   double dissipated() const { return dissipated_; }  ///< [J]
   std::int64_t bytes() const { return static_cast<std::int64_t>(elements_.size() * sizeof(Element)); }

@@ -54,7 +54,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
 void Contact::set_corrugation(Corrugation corrugation) {
   search_.set_corrugation(std::move(corrugation));
   totals_ = {};
-  frictional_work_ = damping_work_ = 0;
+  frictional_work_ = contact_loss_ = 0;
   make_room();
 }
 
@@ -100,7 +100,7 @@ void Contact::begin() {
   history_ = PageVector<PointHistory>(history_.size());
   std::visit([](auto& of) { of.state.assign(of.state.size(), {}); }, friction_);
   search_.wake_all();
-  frictional_work_ = damping_work_ = 0;
+  frictional_work_ = contact_loss_ = 0;
   for (const ContactPoint& point : points_)
     history_[static_cast<std::size_t>(point.history)] = {point.shear, point.pressure};
 }
@@ -164,14 +164,14 @@ void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double d
     PointHistory& history = history_[static_cast<std::size_t>(point.history)];
     const PointWork work = settle_history(point, history, springs_, dt);
     frictional_work_ += work.frictional;
-    damping_work_ += work.damping;
+    contact_loss_ += work.lost;
   }
   close_step();
 }
 
 void Contact::take(const ContactOutcome& outcome) {
   frictional_work_ += outcome.frictional_work;
-  damping_work_ += outcome.damping_work;
+  contact_loss_ += outcome.contact_loss;
   points_.clear();
   totals_ = {};
   totals_.force_on_rail = outcome.force_on_rail;
@@ -182,9 +182,9 @@ void Contact::take_points(std::span<const ContactPoint> points) {
   close_step();
 }
 
-void Contact::take_points(std::span<const ContactPoint> points, double frictional_work, double damping_work) {
+void Contact::take_points(std::span<const ContactPoint> points, double frictional_work, double contact_loss) {
   frictional_work_ = frictional_work;
-  damping_work_ = damping_work;
+  contact_loss_ = contact_loss;
   take_points(points);
 }
 
@@ -233,7 +233,7 @@ std::vector<Spring> Contact::springs() const {
 void Contact::list_state(StateList& list) {
   list_searched(list);
   list.add("frictional_work", frictional_work_);
-  list.add("damping_work", damping_work_);
+  list.add("contact_loss", contact_loss_);
 }
 
 void Contact::list_searched(StateList& list) {

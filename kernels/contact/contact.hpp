@@ -43,7 +43,7 @@ struct ContactOptions {
   RunningSurface rail_depth;   ///< of the rail's surface besides the corrugation
   RunningSurface wheel_depth;  ///< of the wheel's surface
   double static_force = 0;     ///< vertical force that the search expects [N]
-  bool yields = false;         ///< a surface is plastic
+  bool yields = false;         ///< a surface's material is not linear
 };
 
 class SurfaceFields;
@@ -66,7 +66,7 @@ class ContactSteps {
 struct ContactOutcome {
   Vec3 force_on_rail;          ///< [N]
   double frictional_work = 0;  ///< of the step [J]
-  double damping_work = 0;     ///< of the step [J]
+  double contact_loss = 0;     ///< of the step [J]
 };
 
 /// Owner of search, histories, solver and sums of the patch.
@@ -111,7 +111,7 @@ class Contact {
   /// Takes over the points that were solved elsewhere in the last step.
   void take_points(std::span<const ContactPoint> points);
   /// The same, with the works since the start [J].
-  void take_points(std::span<const ContactPoint> points, double frictional_work, double damping_work);
+  void take_points(std::span<const ContactPoint> points, double frictional_work, double contact_loss);
   /// The record that the tractions of each step go to; whoever solves elsewhere keeps it.
   void record_in(SurfaceFields* record) { record_ = record; }
   SurfaceFields* record() const { return record_; }
@@ -160,7 +160,7 @@ class Contact {
   double frictional_work() const { return frictional_work_; }  ///< dissipated by friction since the start [J]
   /// Dissipated because the forces lead the motion by half a step, so that the penalty's oscillations die out
   /// [J].
-  double damping_work() const { return damping_work_; }
+  double contact_loss() const { return contact_loss_; }
 
   /// Parts of both surfaces that hold all nodes whose motion a search reads or the tractions change, with the
   /// wheel's frame anywhere between now and a step of dt [s] later.
@@ -205,7 +205,7 @@ class Contact {
   ContactSteps* steps_ = nullptr;
   SurfaceFields* record_ = nullptr;
   double frictional_work_ = 0;
-  double damping_work_ = 0;
+  double contact_loss_ = 0;
 };
 
 }  // namespace tread

@@ -157,9 +157,9 @@ struct NodeKick {
   }
 };
 
-/// Work of friction and of the lead of forces in a step.
+/// Work of friction in a step, and loss because the forces lead the motion.
 struct PointWork {
-  double frictional, damping;  ///< [J]
+  double frictional, lost;  ///< [J]
 };
 
 /// Sets the point's frictional work and its history. Returns its works.

@@ -97,7 +97,7 @@ struct PointOutcome {
   Traction shear;          ///< [Pa]
   double frictional_work;  ///< [J/m2]
   double share[4];         ///< area at the face's corners [m2]
-  double sum[kSums];       ///< force on the rail [N], work of friction and of damping [J]
+  double sum[kSums];       ///< force on the rail [N], work of friction and loss [J]
 };
 
 /// Parts of the sum of a node, taken by threads of their own, and the room for them.
@@ -143,7 +143,7 @@ struct RecordView {
 struct PatchResult {
   Vec3 force_on_rail;      ///< [N]
   double frictional_work;  ///< of the step [J]
-  double damping_work;     ///< of the step [J]
+  double contact_loss;     ///< of the step [J]
   int points;              ///< of the patch
   int at_the_end;          ///< nonzero where one under pressure lies at the end of the searched surface
 };

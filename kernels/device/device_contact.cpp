@@ -136,12 +136,12 @@ SurfaceDepths DeviceContact::depths(SurfaceDepths depths) {
   return depths;
 }
 
-/// Room for the law's states, and copies of its table.
+/// Room for the law's states, and copies of its arrays.
 void DeviceContact::keep_law() {
-  if (auto* table = std::get_if<TableFriction>(&law_)) {
-    table->x = keep(std::span(table->x, index(table->places)));
-    table->coefficient = keep(std::span(table->coefficient, index(table->places)));
-  }
+  const auto keep_values = [this](const double* values, int count) {
+    return keep(std::span(values, index(count)));
+  };
+  std::visit([&](auto& law) { law.keep_arrays(keep_values); }, law_);
   std::visit(
       [&](const auto& of) {
         using State = typename std::decay_t<decltype(of.law)>::State;
@@ -275,7 +275,7 @@ void DeviceContact::start(NodeField displacement, NodeField velocity) {
 void DeviceContact::resolve() {
   device_->finish(kRecordQueue);
   const PatchResult& result = *result_.data();
-  contact_->take({result.force_on_rail, result.frictional_work, result.damping_work});
+  contact_->take({result.force_on_rail, result.frictional_work, result.contact_loss});
   if (result.at_the_end != 0) fetch_points();
 }
 

@@ -272,7 +272,7 @@ class PatchSolution {
                                 of.frictional_work,
                                 {of.area * of.face_share[0], of.area * of.face_share[1],
                                  of.area * of.face_share[2], of.area * of.face_share[3]},
-                                {force.x, force.y, force.z, work.frictional, work.damping}};
+                                {force.x, force.y, force.z, work.frictional, work.lost}};
     if (of.pressure > 0 && at_the_end(of)) teams_.add(&task_.counts->at_the_end, 1);
   }
 

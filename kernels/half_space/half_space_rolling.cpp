@@ -260,27 +260,27 @@ std::optional<FrictionState> RollingContact::newton(const Problem& problem, cons
 
 /// Newton's method with the shift unknown. Newton fails if at some iterate no cell sticks: the force then
 /// depends on no shift. In that case the shift is bisected until Newton succeeds.
-FrictionState RollingContact::solve(const Problem& problem, const Drive& drive,
-                                    const FrictionState& start) const {
+FrictionState RollingContact::solve(const Problem& problem, double force, const FrictionState& start) const {
   constexpr int kTrials = 80;
   constexpr double kForce = 1e-9;  ///< tolerance as a fraction of the largest possible force
   const double largest = friction_ * contact_.load;
-  if (drive.by_force && !(std::abs(drive.value) < largest))
+  if (!(std::abs(force) < largest))
     throw NumericalError(fmt::format(
         "half-space reference: friction carries less than {:.1f} N, asked for {:.1f} N; lower the "
         "traction coefficient",
-        largest, drive.value));
+        largest, force));
+  const Drive drive{true, force};
   if (std::optional<FrictionState> state = newton(problem, drive, start)) return *std::move(state);
 
   FrictionState near = start;
   double low = -HUGE_VAL, high = HUGE_VAL;  ///< shifts of too small and too large forces
   double stride = std::max(std::abs(start.shift), 1e-6 * contact_.approach);
   double shift = start.shift;
-  for (int trial = 0; drive.by_force && trial < kTrials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     std::optional<FrictionState> state = newton(problem, {false, shift}, near);
     if (!state) break;
     near = *std::move(state);
-    const double miss = near.force - drive.value;
+    const double miss = near.force - force;
     if (std::abs(miss) < kForce * largest) return near;
     (miss > 0 ? high : low) = shift;
     if (std::isinf(high) || std::isinf(low)) {
@@ -321,17 +321,17 @@ FrictionState RollingContact::shift(const FrictionState& before, double force) c
   const double radius = std::sqrt(contact_.area / std::numbers::pi);
   start.shift = (force - before.force) * (2 - influence_.material.poissons_ratio) /
                 (4 * radius * influence_.material.shear_modulus());
-  return solve(step_problem(before, false), {true, force}, start);
+  return solve(step_problem(before, false), force, start);
 }
 
 FrictionState RollingContact::roll(const FrictionState& before, double force) const {
-  return solve(step_problem(before, true), {true, force}, before);
+  return solve(step_problem(before, true), force, before);
 }
 
 FrictionState RollingContact::steady(double force) const {
   FrictionState start = free_state();
   start.shift = expected_creepage(force) * influence_.grid.dx;
-  return solve(steady_problem(), {true, force}, start);
+  return solve(steady_problem(), force, start);
 }
 
 /// Creepage of a circular patch, with which the solver starts; Kalker's C11 = 4.3. [Vermeulen and Johnson, J.
@@ -342,10 +342,6 @@ double RollingContact::expected_creepage(double force) const {
   const double share = std::min(1.0, std::abs(force) / largest);
   const double creepage = 3 * largest / (4.3 * influence_.material.shear_modulus() * ab);
   return std::copysign(creepage * (1 - std::cbrt(1 - share)), force);
-}
-
-FrictionState RollingContact::steady_at_creepage(double creepage) const {
-  return solve(steady_problem(), {false, creepage * influence_.grid.dx}, free_state());
 }
 
 }  // namespace tread::half_space

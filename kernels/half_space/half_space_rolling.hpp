@@ -52,7 +52,6 @@ class RollingContact {
   FrictionState roll(const FrictionState& before, double force) const;
   /// State of steady rolling under `force` [N].
   FrictionState steady(double force) const;
-  FrictionState steady_at_creepage(double creepage) const;
 
  private:
   struct Drive;
@@ -65,7 +64,7 @@ class RollingContact {
   Problem steady_problem() const;
   std::optional<FrictionState> newton(const Problem& problem, const Drive& drive,
                                       const FrictionState& start) const;
-  FrictionState solve(const Problem& problem, const Drive& drive, const FrictionState& start) const;
+  FrictionState solve(const Problem& problem, double force, const FrictionState& start) const;
   double expected_creepage(double force) const;
   void add_work(const Problem& problem, FrictionState& state) const;
 

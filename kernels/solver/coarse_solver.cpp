@@ -119,14 +119,13 @@ struct CoarseSolver::Matrices {
   SparseMatrix base;  ///< lower triangle without springs
   SparseFactor factor;
   std::optional<std::vector<Spring>> springs;  ///< that the factor has
-  int probes = 0;
 };
 
 namespace {
 
 /// Lower triangle of Z^T A Z, six columns of a colour at a time.
 SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph,
-                   const Operator& a, std::int64_t values, int* probes) {
+                   const Operator& a, std::int64_t values) {
   const auto colour = distance_two_colours(graph);
   const int colours = colour.empty() ? 0 : *std::max_element(colour.begin(), colour.end()) + 1;
   std::vector<std::vector<int>> members(static_cast<std::size_t>(colours));
@@ -151,7 +150,6 @@ SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<i
       });
       aggregates.prolongate_add(coarse.data(), x.data());
       a(x.data(), y.data());
-      ++*probes;
       aggregates.restrict_to_modes(y.data(), coarse.data());
       for (const int i : group) {
         if (k >= aggregates.mode_count(i)) continue;
@@ -191,7 +189,7 @@ void check_probes(const Aggregates& aggregates, const Operator& a, const SparseM
 CoarseSolver::CoarseSolver(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph,
                            const Operator& a, std::int64_t values)
     : matrices_(std::make_unique<Matrices>()) {
-  matrices_->base = probe(aggregates, graph, a, values, &matrices_->probes);
+  matrices_->base = probe(aggregates, graph, a, values);
   check_probes(aggregates, a, matrices_->base, values);
 }
 CoarseSolver::~CoarseSolver() = default;
@@ -248,14 +246,6 @@ void CoarseSolver::factorise(const Aggregates& aggregates, const std::vector<Spr
 
 void CoarseSolver::solve(const double* r, double* y) const {
   matrices_->factor.solve(r, y);
-}
-
-int CoarseSolver::probes() const {
-  return matrices_->probes;
-}
-
-std::int64_t CoarseSolver::factor_entries() const {
-  return matrices_->factor.entries();
 }
 
 }  // namespace tread

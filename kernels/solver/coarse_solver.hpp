@@ -36,9 +36,6 @@ class CoarseSolver {
   /// Solves for `y`. `r` and `y` have Aggregates::modes() values and may be one array.
   void solve(const double* r, double* y) const;
 
-  int probes() const;                   ///< number of applications of the operator
-  std::int64_t factor_entries() const;  ///< number of entries of L
-
  private:
   struct Matrices;
   std::unique_ptr<Matrices> matrices_;

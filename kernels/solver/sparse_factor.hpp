@@ -22,8 +22,6 @@ class SparseFactor {
   /// Solves A y = r; `r` and `y` may be one array. The bits do not depend on the number of threads.
   void solve(const double* r, double* y) const;
 
-  std::int64_t entries() const { return lower().nonZeros(); }  ///< of L, its unit diagonal aside
-
  private:
   using Bundle = std::vector<int>;  ///< ascending columns of subtrees that one thread takes
   /// Bundles that do not need one another, and the number of columns above them.

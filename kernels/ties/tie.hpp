@@ -61,7 +61,6 @@ class Ties {
 
   bool empty() const { return secondary_.empty(); }
   std::int64_t secondary_count() const { return static_cast<std::int64_t>(secondary_.size()); }
-  std::int64_t primary_count() const { return static_cast<std::int64_t>(primary_.size()); }
   const std::vector<std::int64_t>& secondary_slots() const { return secondary_; }
   const std::vector<std::int64_t>& primary_slots() const { return primary_; }
 

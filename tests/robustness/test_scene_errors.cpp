@@ -349,6 +349,28 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
   expect_part(error_of("[vehicle]"), "x.toml:1:2: vehicle: a vehicle needs a wheel; add [wheel]");
 }
 
+/// Nodes are held across: nothing may push them there.
+TEST(SceneErrors, PlaneStrainOfBodiesThatAreNotStraightAcross) {
+  const std::string slice =
+      "[scene]\nplane_strain = true\n[material.steel]\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\n"
+      "density = \"7850 kg/m3\"\n[load]\nwheel_load = \"20 kN\"\n[contact]\n[motion]\nduration = \"1 ms\"\n"
+      "[rail]\nprofile = \"box\"\nsupport = \"rigid\"\n";
+  const std::string wheel = "[wheel]\nshape = \"tyre\"\nprofile = \"cylinder\"\n";
+  EXPECT_EQ(error_of(slice + wheel), "accepted");
+  EXPECT_EQ(error_of(slice + wheel +
+                     "[surface.a]\nkind = \"dip\"\nat = \"0 m\"\ndepth = \"1 mm\"\nlength = \"0.1 m\""),
+            "accepted");
+  EXPECT_EQ(error_of(slice + "[wheel]\nshape = \"tyre\"\nprofile = \"arc\""),
+            "x.toml:2:1: scene.plane_strain: plane strain is that of a wheel that is straight across; state "
+            "wheel.profile = \"cylinder\", or scene.plane_strain = false");
+  expect_part(error_of(slice + "crown_radius = \"0.3 m\"\n" + wheel), "state rail.crown_radius = 0");
+  expect_part(error_of(slice + wheel + "[corrugation]"), "state a [surface.NAME] with kind = \"waves\"");
+  expect_part(error_of(slice + wheel +
+                       "[surface.a]\nkind = \"dent\"\nat = \"0 m\"\ndepth = \"0.1 mm\"\nlength = \"0.1 "
+                       "m\"\nwidth = \"30 mm\""),
+              "a dent varies across, and plane strain has no depth that does; state kind = \"dip\"");
+}
+
 TEST(SceneErrors, KeysWithoutEffect) {
   expect_messages({
       {"[rail]\nsection = \"60E1\"",

@@ -4,10 +4,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/engine/model/model.hpp"
+#include "io/scene/schema.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
@@ -45,6 +49,25 @@ TEST(FrictionScene, CoulombIsTheDefault) {
   EXPECT_EQ(scene.contact->friction_law, "coulomb");
   EXPECT_EQ(scene.contact->largest_friction(), 0.5);
   EXPECT_EQ(scene.contact->least_friction(), 0.5);
+}
+
+/// A name in the schema without a law, or without its range, would be another law's.
+TEST(FrictionScene, EveryNameHasItsOwnLawAndARange) {
+  Scene scene = samples::tyre_scene({"scene.element_size=14 mm"});
+  scene.contact->friction_x = {0};
+  scene.contact->friction_at_x = {0.3};
+  const std::vector<std::string> names = find_key("contact.friction_law")->allowed;
+  std::set<std::size_t> laws;
+  for (const std::string& name : names) {
+    scene.contact->friction_law = name;
+    EXPECT_LE(scene.contact->least_friction(), scene.contact->largest_friction()) << name;
+    laws.insert(Model(scene).contact->options().friction.index());
+  }
+  EXPECT_EQ(laws.size(), names.size());
+  EXPECT_EQ(laws.size(), std::variant_size_v<FrictionLaw>);
+  scene.contact->friction_law = "unknown";
+  EXPECT_THROW(scene.contact->largest_friction(), InputError);
+  EXPECT_THROW(Model{scene}, InputError);
 }
 
 TEST(FrictionScene, ATableIsReadInItsUnits) {

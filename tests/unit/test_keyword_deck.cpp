@@ -292,14 +292,15 @@ TEST(KeywordDeck, StatesFallingFrictionAndPlasticity) {
 }
 
 TEST(KeywordDeck, RefusesWhatItWouldFalsify) {
-  const auto message = [](const Scene& scene) {
+  const auto message_of = [](const Model& model) {
     try {
-      exported(Model(scene));
+      exported(model);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
     return std::string();
   };
+  const auto message = [&](const Scene& scene) { return message_of(Model(scene)); };
   EXPECT_NE(message(tyre({"wheel.bore=guided"})).find("wheel.bore"), std::string::npos);
   std::vector<std::string> in_the_gap = kCorrugated;
   in_the_gap.push_back("corrugation.apply=gap");
@@ -307,6 +308,14 @@ TEST(KeywordDeck, RefusesWhatItWouldFalsify) {
   Scene still = bar();
   still.motion.reset();
   EXPECT_NE(message(still).find("motion.duration"), std::string::npos);
+  // Laws that only this program has.
+  Model creeping(tyre());
+  creeping.mesh.blocks.front().materials.front().law = "creep";
+  EXPECT_NE(message_of(creeping).find("material.steel.law = \"creep\": no card is written"),
+            std::string::npos);
+  Model patchy(tyre());
+  patchy.scene.contact->friction_law = "patchy";
+  EXPECT_NE(message_of(patchy).find("contact.friction_law = \"patchy\""), std::string::npos);
 }
 
 TEST(KeywordDeck, ListsEveryDifference) {

@@ -48,7 +48,7 @@ void fix_station(const SweptBlock& block, int station, Elastic& elastic) {
 
 double distance(const Field& a, const Field& b) {
   Field difference = a;
-  add_scaled(size_of(a), -1, b.data(), difference.data());
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= b[i];
   return std::sqrt(dot(size_of(a), difference.data(), difference.data()) /
                    dot(size_of(b), b.data(), b.data()));
 }

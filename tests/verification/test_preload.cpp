@@ -10,8 +10,11 @@
 #include <numbers>
 #include <string>
 
+#include "core/aligned.hpp"
 #include "core/error.hpp"
+#include "core/mesh/node_field.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/poses.hpp"
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/engine/start/step_limit.hpp"
 #include "tests/measured.hpp"
@@ -139,6 +142,23 @@ TEST(Preload, ASliceOfWideBodiesHasOnePressureAcross) {
     }
   measured("difference of pressures across, over the largest", difference / largest);
   EXPECT_LT(difference, 1e-6 * largest);
+}
+
+/// The tread is divided finely near the patch alone: neither a shift nor an oval of the ring is a tilt.
+TEST(Preload, TheTiltDoesNotDependOnWhereTheMeshIsFine) {
+  constexpr double kTilt = 2e-3, kShift = 5e-4, kOval = 1e-3;
+  const Model model(samples::tyre_scene());
+  const SweptBlock& tread = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  for (int station = 0; station < tread.station_count(); ++station) {
+    const double angle = tread.stations[static_cast<std::size_t>(station)];
+    for (int node = 0; node < tread.section.nodes(); ++node) {
+      const double down = tread.section.q[static_cast<std::size_t>(node)] * std::cos(angle);
+      u[static_cast<std::size_t>(dof(tread.base + tread.slot(node, station), 1))] =
+          kTilt * down + kShift + kOval * std::cos(2 * angle);
+    }
+  }
+  EXPECT_NEAR(wheel_tilt(model, u.data(), 0), kTilt, 1e-3 * kTilt);
 }
 
 TEST(Preload, TiltsOfMirroredScenesAreOpposite) {

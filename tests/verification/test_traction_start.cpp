@@ -57,11 +57,12 @@ TEST(TractionStart, KeepsTheForce) {
 
 /// Carter's creepage, of a slice and of a cylinder on a box.
 TEST(TractionStart, KeepsTheForceOfALineContact) {
-  for (const char* slice : {"true", "false"}) {
+  for (const bool slice : {true, false}) {
     SCOPED_TRACE(slice);
-    Scene cylinder = scene_of(-0.2, {"wheel.width=10 mm", "rail.width=10 mm", "motion.duration=0.3 ms",
-                                     "scene.element_size=3 mm", std::string("scene.plane_strain=") + slice});
+    Scene cylinder = scene_of(
+        -0.2, {"wheel.width=10 mm", "rail.width=10 mm", "motion.duration=0.3 ms", "scene.element_size=3 mm"});
     cylinder.wheel->profile = "cylinder";
+    cylinder.plane_strain = slice;
     Preload preload;
     for (const Sample& sample : roll(cylinder, preload))
       EXPECT_NEAR(sample.longitudinal_force / sample.vertical_force, -0.2, 0.03) << sample.time;

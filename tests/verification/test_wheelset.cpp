@@ -9,6 +9,7 @@
 
 #include "drivers/engine/beam/track_beam.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/engine/start/poses.hpp"
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/engine/start/step_limit.hpp"

@@ -259,52 +259,6 @@ BeamSection beam_section(const std::vector<const Section*>& parts, double poisso
   return s;
 }
 
-Section refined(const Section& section, int n) {
-  Section fine;
-  std::map<std::pair<long, long>, int> known;  // by position in nanometres
-  const auto node_at = [&](double p, double q) {
-    const auto [entry, fresh] =
-        known.try_emplace({std::lround(1e9 * p), std::lround(1e9 * q)}, static_cast<int>(fine.p.size()));
-    if (fresh) {
-      fine.p.push_back(p);
-      fine.q.push_back(q);
-    }
-    return entry->second;
-  };
-  for (const std::array<int, 4>& quad : section.quads) {
-    const auto corner = [&](int i, int j) {
-      const double xi = static_cast<double>(i) / n;
-      const double eta = static_cast<double>(j) / n;
-      const std::array<double, 4> weight = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
-      double p = 0;
-      double q = 0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        p += weight[k] * section.p[static_cast<std::size_t>(quad[k])];
-        q += weight[k] * section.q[static_cast<std::size_t>(quad[k])];
-      }
-      return node_at(p, q);
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        fine.quads.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
-  }
-  for (const auto& [name, line] : section.paths)
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const auto a = static_cast<std::size_t>(line[i]);
-      if (i + 1 == line.size()) {
-        fine.paths[name].push_back(node_at(section.p[a], section.q[a]));
-        break;
-      }
-      const auto b = static_cast<std::size_t>(line[i + 1]);
-      for (int k = 0; k < n; ++k) {
-        const double t = static_cast<double>(k) / n;
-        fine.paths[name].push_back(
-            node_at((1 - t) * section.p[a] + t * section.p[b], (1 - t) * section.q[a] + t * section.q[b]));
-      }
-    }
-  return fine;
-}
-
 BeamProperties timoshenko(const BeamSection& section, const Material& material) {
   const double sheared = section.shear_coefficient * section.area;
   BeamProperties beam;

@@ -26,9 +26,6 @@ struct BeamSection {
 /// [theory.md, eqs. B3, B6]
 BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
 
-/// The same quads, each cut into n x n.
-Section refined(const Section& section, int n);
-
 /// Stiffnesses and masses per length of a beam.
 struct BeamProperties {
   double bending_stiffness = 0;  ///< E I [N m2]

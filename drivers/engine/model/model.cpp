@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "drivers/engine/model/sections.hpp"
 #include "drivers/engine/model/surfaces.hpp"
 #include "kernels/element/front_plan.hpp"
+#include "kernels/material/laws.hpp"
 
 namespace tread {
 
@@ -30,14 +30,17 @@ namespace {
 /// Sets the scale of penalty and first overlap where the wheel has hardly any load [N].
 constexpr double kLeastLoad = 100;
 
-/// Friction law of the scene. A table's law refers to the spec's arrays.
+/// Friction law of the scene. A table's law refers to the spec's arrays. InputError for an unknown name.
 FrictionLaw friction_of(const ContactSpec& spec) {
   if (spec.friction_law == "table")
     return TableFriction{spec.friction_x.data(), spec.friction_at_x.data(),
                          static_cast<int>(spec.friction_x.size()), spec.friction_start};
   if (spec.friction_law == "falling")
     return FallingFriction{spec.friction, spec.friction_fast, spec.friction_speed, spec.friction_memory};
-  return CoulombFriction{spec.friction};
+  if (spec.friction_law == "coulomb") return CoulombFriction{spec.friction};
+  throw InputError(
+      fmt::format("contact.friction_law = \"{}\": no such law; state \"coulomb\", \"table\" or \"falling\"",
+                  spec.friction_law));
 }
 
 }  // namespace
@@ -157,6 +160,7 @@ void Model::build_slab() {
                                            mortar, mortar};
   SweptBlock block = make_swept_block("slab", Sweep::extruded, slab_section(slab, foot_height(), sizes),
                                       materials, left, segments);
+  // Held along and across, the nodes let the slab shear and be compressed, but not bend.
   block.vertical_only = true;
   index.slab = add(std::move(block));
 }
@@ -329,7 +333,7 @@ void Model::build_contact(const Corrugation& shape) {
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
   const LateralGap gap = lateral_gap(rail, wheel);
   hertz_radius_y = gap.radius;
-  line_width = scene.plane_strain ? scene.rail->width : gap.width;
+  line_width = gap.width;
   const double modulus = scene.elastic_pair().contact_modulus();
   hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, wheel_load() > 0 ? wheel_load() : kLeastLoad);
 
@@ -348,7 +352,8 @@ void Model::build_contact(const Corrugation& shape) {
   const double border_gap = std::max(hertz_patch.approach, 2 * per_width / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   options.static_force = wheel_load();
-  options.yields = scene.wheel_material().law == "j2" || scene.head_material().law == "j2";
+  const auto yields = [](const Material& material) { return !is_linear(Laws::find(material.law)); };
+  options.yields = yields(scene.wheel_material()) || yields(scene.head_material());
   options.depth_room = depth_room(scene);
   options.rail_depth = rail_surface(scene);
   options.wheel_depth = wheel_surface(scene);
@@ -382,16 +387,8 @@ std::vector<std::int64_t> Model::loaded_slots() const {
 std::vector<std::int64_t> Model::connected_slots() const {
   std::vector<std::int64_t> slots;
   const auto add = [&](const auto& more) { slots.insert(slots.end(), more.begin(), more.end()); };
-  const auto add_attached = [&](const Attachment& at) {
-    std::copy_if(at.slot.begin(), at.slot.end(), std::back_inserter(slots),
-                 [](std::int64_t slot) { return slot >= 0; });
-  };
-  if (fastenings)
-    for (const SpringDampers::Element& element : fastenings->elements()) {
-      add_attached(element.upper);
-      add_attached(element.lower);
-    }
-  if (hammer) add_attached(*hammer);
+  if (fastenings) add(fastenings->slots());
+  if (hammer) hammer->add_slots(slots);
   add(journal.slots());
   add(torque.slots());
   return slots;

@@ -95,9 +95,10 @@ struct Model {
   void apply_stiffness(const double* u, double* f) const;
   void add_lumped_mass(double* mass) const;  ///< of elements alone; scalar node field [kg]
 
-  /// Nodes to or from whose force a step adds more than their elements do: those of ties, and the others.
+  /// Nodes to or from whose force a step adds more than their elements do. The force of others is not stored:
+  /// a feature that adds to it needs its nodes here.
   std::vector<std::int64_t> loaded_slots() const;
-  std::vector<std::int64_t> connected_slots() const;
+  std::vector<std::int64_t> connected_slots() const;  ///< those of them that are not of ties
 
   /// Gives the memory of other nodes' masses back. `groups`: marks by slot / kLanes; empty: of all nodes.
   void keep_masses(std::span<const unsigned char> groups);

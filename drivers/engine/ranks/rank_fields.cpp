@@ -132,14 +132,14 @@ void RankFields<Real, U>::spread_points() {
   Contact& contact = *this->model().contact;
   struct Head {
     std::int64_t points;
-    double frictional_work, damping_work;
-  } head = {std::ssize(contact.points()), contact.frictional_work(), contact.damping_work()};
+    double frictional_work, contact_loss;
+  } head = {std::ssize(contact.points()), contact.frictional_work(), contact.contact_loss()};
   ranks_->broadcast(std::as_writable_bytes(std::span(&head, 1)));
   std::vector<ContactPoint> points = contact.points();
   points.resize(index(head.points));
   ranks_->broadcast(std::as_writable_bytes(std::span(points)));
   if (solves()) return;
-  contact.take_points(points, head.frictional_work, head.damping_work);
+  contact.take_points(points, head.frictional_work, head.contact_loss);
   contact.add_forces(this->force_);
 }
 

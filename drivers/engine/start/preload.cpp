@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "drivers/engine/model/attachments.hpp"
 #include "drivers/engine/model/rail_foot.hpp"
 #include "drivers/engine/start/moving_deflection.hpp"
+#include "drivers/engine/start/poses.hpp"
 #include "drivers/engine/start/static_loads.hpp"
 #include "drivers/engine/start/static_system.hpp"
 #include "drivers/engine/start/step_limit.hpp"
@@ -109,42 +108,6 @@ void describe(const Model& model, Preload& out) {
 }
 
 }  // namespace
-
-double wheel_tilt(const Model& model, ConstNodeField displacement, double angle) {
-  if (model.index.tread < 0) return 0;
-  // The tread's lateral displacement varies as the depth below the axle.
-  const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
-  const SurfaceProfile profile(block.section);
-  double moment = 0;
-  double second = 0;
-  for (int ordinal = 0; ordinal <= profile.edges(); ++ordinal) {
-    const int node = profile.node(ordinal);
-    for (int station = 0; station < block.station_count(); ++station) {
-      const double down = block.section.q[static_cast<std::size_t>(node)] *
-                          std::cos(block.stations[static_cast<std::size_t>(station)] + angle);
-      moment += down * displacement[dof(block.base + block.slot(node, station), 1)];
-      second += down * down;
-    }
-  }
-  return moment / second;
-}
-
-SectionPose head_pose(const Model& model, ConstNodeField displacement, double x) {
-  const SweptBlock& head = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
-  const auto at = std::lower_bound(head.stations.begin(), std::prev(head.stations.end()), x);
-  const auto station = static_cast<int>(at - head.stations.begin());
-  const Section& section = head.section;
-  const SurfaceProfile profile(section);
-  const std::array sides = {profile.node(0), profile.node(profile.edges())};
-  std::array<Vec3, 2> place, moved;
-  for (const std::size_t i : {0, 1}) {
-    const auto node = static_cast<std::size_t>(sides[i]);
-    place[i] = {0, section.p[node], section.q[node]};
-    moved[i] = displacement.at(head.base + head.slot(sides[i], station));
-  }
-  const double roll = (moved[1].z - moved[0].z) / (place[1].y - place[0].y);
-  return {roll, 0.5 * (moved[0].y + moved[1].y) + roll * 0.5 * (place[0].z + place[1].z)};
-}
 
 double deepest_line(const Scene& scene, const Preload& preload) {
   const double peak = preload.contact.pressure_peak.y;
@@ -300,73 +263,115 @@ class TangentSolver {
   CgVectors vectors_;
 };
 
+/// Newton's method on the equations of an Equilibrium.
+class NewtonSolver {
+ public:
+  /// `size`: norm of the load [N]
+  NewtonSolver(const Model& model, Equilibrium& equilibrium, double size, const ProgressText& progress)
+      : model_(&model),
+        equilibrium_(&equilibrium),
+        progress_(&progress),
+        size_(size),
+        scale_(model.wheel_load() > 0 ? model.wheel_load() : size),
+        solver_(model, equilibrium) {}
+
+  /// Moves the state until it is balanced. `residual`: room for 3 * mesh.slots values. Throws NumericalError
+  /// without convergence.
+  void balance(Preload& state, AlignedVector<double>& residual) {
+    constexpr int kMaxNewton = 40;
+    for (int corrections = 0;; ++corrections) {
+      look_at(state, residual);
+      if (state.residual < kTolerance) return;
+      if (corrections == kMaxNewton)
+        throw NumericalError(fmt::format(
+            "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", state.residual,
+            corrections, kTolerance, why_unbalanced(*model_, state.residual * scale_, size_)));
+      correct(state, residual);
+    }
+  }
+
+ private:
+  static constexpr double kTolerance = 1e-7;
+
+  void look_at(Preload& state, AlignedVector<double>& residual) {
+    equilibrium_->residual(state, residual.data());
+    require_contact(*model_, iteration_, state.residual * scale_, size_);
+    const auto n = static_cast<std::int64_t>(residual.size());
+    state.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale_;
+    const Contact* contact = model_->contact.get();
+    (*progress_)(fmt::format("iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration_,
+                             state.residual, contact ? contact->points().size() : 0,
+                             contact ? -1e-3 * contact->totals().force_on_rail.z : 0.0));
+    state.newton_iterations = iteration_++;
+  }
+
+  void correct(Preload& state, AlignedVector<double>& residual) {
+    // Linear systems are solved to this share of their right sides: the more roughly, the less the last
+    // iteration gained. At 0.5 points keep entering and leaving the patch.
+    constexpr double kForcing = 0.03, kRoughly = 0.1;
+    // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
+    const double forcing = std::clamp(0.5 * state.residual / before_, kForcing, kRoughly);
+    before_ = state.residual;
+    const double wanted = std::max(0.3 * kTolerance, forcing * state.residual);
+    state.cg_iterations += solver_.correct(wanted * scale_, residual, state.displacement);
+  }
+
+  const Model* model_;
+  Equilibrium* equilibrium_;
+  const ProgressText* progress_;
+  double size_;
+  double scale_;  ///< of residuals [N]
+  TangentSolver solver_;
+  double before_ = 1;  ///< residual of the last iteration
+  int iteration_ = 0;  ///< of all states that were balanced
+};
+
+/// Bodies without strain. The undeformed surfaces overlap by about the Hertz patch when they are half the
+/// approach into each other.
+Preload undeformed_state(const Model& model) {
+  Preload out;
+  out.displacement.assign(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  out.wheel.origin.x = model.scene.start_x();
+  if (!model.contact) return out;
+  const double overlap = 0.6 * model.scale_patch().approach;
+  const Corrugation& corrugation = model.contact->corrugation();
+  const double depth = corrugation.depth(out.wheel.origin.x, corrugation.centre()) +
+                       model.contact->touching_depth(out.wheel.origin.x);
+  out.wheel.origin.z = model.contact->touching_height() - depth - overlap;
+  return out;
+}
+
+/// Adds the loads of rolling to those at rest, under which `state` is balanced.
+void add_rolling(const Model& model, const SteadyMotion& motion, Preload& state) {
+  if (motion.rolling) {
+    state.run_in = run_in(model, axle_bending(model, state.displacement.data(), state.wheel));
+    state.run_in_change = state.run_in->change;
+  }
+  if (motion.traction != 0)
+    state.free_spin = free_spin(model, state.displacement, state.wheel, model.scene.motion->speed);
+  // F_L stays where the fastenings change F_N.
+  state.traction = motion.traction * (state.run_in ? model.wheel_load() / state.run_in->force : 1);
+  require_grip(model, state.traction);
+}
+
 }  // namespace
 
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
-  constexpr int kMaxNewton = 40;
-  constexpr double kTolerance = 1e-7;
-  // Linear systems are solved to this share of their right sides: the more roughly, the less the last
-  // iteration gained. At 0.5 points keep entering and leaving the patch.
-  constexpr double kForcing = 0.03, kRoughly = 0.1;
   if (model.scene.motion) refuse_heavy_damping(model);
   const auto n = 3 * model.mesh.slots;
-  Preload out;
-  out.displacement.assign(static_cast<std::size_t>(n), 0.0);
-  out.wheel.origin.x = model.scene.start_x();
-  if (model.contact) {
-    // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
-    // other.
-    const double overlap = 0.6 * model.scale_patch().approach;
-    const Corrugation& corrugation = model.contact->corrugation();
-    const double depth = corrugation.depth(out.wheel.origin.x, corrugation.centre()) +
-                         model.contact->touching_depth(out.wheel.origin.x);
-    out.wheel.origin.z = model.contact->touching_height() - depth - overlap;
-  }
+  Preload out = undeformed_state(model);
   Equilibrium equilibrium(model, motion);
   AlignedVector<double> residual(static_cast<std::size_t>(n));
   equilibrium.load(out, residual.data());
   const double size = std::sqrt(dot(n, residual.data(), residual.data()));
   if (size == 0) return out;  // no load: the bodies stay undeformed
-  const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
-  TangentSolver solver(model, equilibrium);
-  double before = 1;   // residual of the last iteration
-  bool rolls = false;  // the state has what rolling adds to that at rest
-  int first = 0;       // iteration of the state that is looked for
-  for (int iteration = 0;; ++iteration) {
-    equilibrium.residual(out, residual.data());
-    require_contact(model, iteration, out.residual * scale, size);
-    out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
-    progress(fmt::format("iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
-                         out.residual, model.contact ? model.contact->points().size() : 0,
-                         model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
-    out.newton_iterations = iteration;
-    if (out.residual < kTolerance) {
-      if (!rolls) describe(model, out);
-      if (rolls || (!motion.rolling && motion.traction == 0)) break;
-      rolls = true;
-      first = iteration;
-      if (motion.rolling) {
-        out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
-        out.run_in_change = out.run_in->change;
-      }
-      if (motion.traction != 0)
-        out.free_spin = free_spin(model, out.displacement, out.wheel, model.scene.motion->speed);
-      // F_L stays where the fastenings change F_N.
-      out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
-      require_grip(model, out.traction);
-      continue;
-    }
-    if (iteration - first == kMaxNewton)
-      throw NumericalError(fmt::format(
-          "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
-          iteration - first, kTolerance, why_unbalanced(model, out.residual * scale, size)));
-    // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
-    const double forcing = std::clamp(0.5 * out.residual / before, kForcing, kRoughly);
-    before = out.residual;
-    const double wanted = std::max(0.3 * kTolerance, forcing * out.residual);
-    out.cg_iterations += solver.correct(wanted * scale, residual, out.displacement);
-  }
+  NewtonSolver newton(model, equilibrium, size, progress);
+  newton.balance(out, residual);
+  describe(model, out);
+  if (!motion.rolling && motion.traction == 0) return out;
+  add_rolling(model, motion, out);
+  newton.balance(out, residual);
   return out;
 }
 

@@ -75,19 +75,6 @@ using ProgressText = std::function<void(const std::string&)>;
 /// state.
 SteadyMotion steady_motion(const Model& model);
 
-/// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its
-/// nodes' lateral displacement; `angle` is the wheel frame's [rad].
-double wheel_tilt(const Model& model, ConstNodeField displacement, double angle);
-
-/// Place of a section after its body was loaded.
-struct SectionPose {
-  double roll = 0;   ///< about x [rad]
-  double shift = 0;  ///< across, of the running surface [m]
-};
-
-/// Pose of the rail's head at a place along it [m], by both ends of its running surface.
-SectionPose head_pose(const Model& model, ConstNodeField displacement, double x);
-
 /// Throws NumericalError if Newton's method or the linear solver does not converge, InputError if the scene
 /// moves and refuse_heavy_damping() refuses it.
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);

@@ -1,6 +1,6 @@
 #pragma once
 // Start of rolling as after a long way: the state of rail and vehicle comes from a beam on the scene's
-// fastenings over which a rigid wheel has run. [theory.md, Start]
+// fastenings over which the vehicle has run. [theory.md, Start]
 
 #include <memory>
 #include <span>

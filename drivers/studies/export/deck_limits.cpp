@@ -12,23 +12,37 @@ namespace tread {
 
 namespace {
 
-/// OpenRadioss takes places free of stress for elastic parts alone.
-void require_elastic_parts(const Model& model) {
+/// A deck has cards for these laws; OpenRadioss takes places free of stress for elastic parts alone.
+void require_known_laws(const Model& model, const DeckOptions& options) {
   for (const SweptBlock& block : model.mesh.blocks)
-    for (const Material& material : block.materials)
-      if (material.law == "j2")
+    for (const Material& material : block.materials) {
+      if (material.law != "elastic" && material.law != "j2")
         throw InputError(
-            fmt::format("--preload: material.{}.law = \"j2\", and OpenRadioss has no static state for it; "
+            fmt::format("material.{}.law = \"{}\": no card is written for it; state \"elastic\" or \"j2\"",
+                        material.name, material.law));
+      if (options.radioss_cards() && material.law != "elastic")
+        throw InputError(
+            fmt::format("--preload: material.{}.law = \"{}\", and OpenRadioss has no static state for it; "
                         "leave out --preload, "
                         "or state --for ls-dyna",
-                        material.name));
+                        material.name, material.law));
+    }
+}
+
+/// A deck's friction is one coefficient, or falls with the slip speed.
+void require_known_friction(const ContactSpec& contact) {
+  if (contact.friction_law == "coulomb" || contact.friction_law == "falling") return;
+  throw InputError(fmt::format(
+      "contact.friction_law = \"{}\": a keyword deck holds one coefficient, or one that falls with "
+      "the slip speed; set contact.friction_law = \"coulomb\" or \"falling\"",
+      contact.friction_law));
 }
 
 }  // namespace
 
 void require_deck_can_hold(const Model& model, const DeckOptions& options) {
   const Scene& scene = model.scene;
-  if (options.radioss_cards()) require_elastic_parts(model);
+  require_known_laws(model, options);
   if (!scene.motion)
     throw InputError(
         "[motion] is missing: a keyword deck needs a time to end; add motion.duration, or set "
@@ -55,10 +69,7 @@ void require_deck_can_hold(const Model& model, const DeckOptions& options) {
   if (scene.vehicle && scene.vehicle->unsprung_mass <= 0)
     throw InputError(
         "vehicle.unsprung_mass = 0: the axle box of a keyword deck needs a mass; state at least 1 kg");
-  if (scene.contact && scene.contact->friction_law == "table")
-    throw InputError(
-        "contact.friction_law = \"table\": a keyword deck has no friction by place; set "
-        "contact.friction_law = \"coulomb\" and contact.friction");
+  if (scene.contact) require_known_friction(*scene.contact);
 }
 
 namespace {

@@ -81,7 +81,7 @@ class SpringEnds {
     End& upper = on_face(element.upper, nullptr);
     End& lower = grounded(element.lower) ? on_ground(upper) : on_face(element.lower, &upper.at);
     for (End* end : {&upper, &lower}) end->mass += spring.end_mass(deck_.step);
-    const double pull = spring.stiffness * element.stretch(deck_.displacement());
+    const double pull = element.load(element.stretch(deck_.displacement()), 0);
     upper.force[spring.component] -= pull;
     lower.force[spring.component] += pull;
     return {upper.node, lower.node};

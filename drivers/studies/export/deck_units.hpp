@@ -13,7 +13,6 @@ inline constexpr double kDensity = 1e-9;       ///< kg/mm3 per kg/m3
 inline constexpr double kStiffness = 1e-6;     ///< kN/mm per N/m
 inline constexpr double kDamping = 1e-3;       ///< kN ms/mm per N s/m
 inline constexpr double kAcceleration = 1e-3;  ///< mm/ms2 per m/s2
-inline constexpr double kPerLength = 1e-3;     ///< 1/mm per 1/m
 // A mass in kg, a speed in mm/ms and a torque in kN mm have their values in SI.
 
 }  // namespace tread::deck_unit

@@ -64,19 +64,11 @@ class DeckText {
   std::string text_;
 };
 
-double quantity_of(const char* option, const std::string& text, const Quantity& expected) {
-  try {
-    return parse_quantity(text, expected);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} \"{}\": {}", option, text, error.what()));
-  }
-}
-
 DeckOptions deck_options(const ExportOptions& options) {
   DeckOptions deck;
   if (options.output.empty()) throw InputError("-o: the name of the deck is empty; state a file");
   if (options.reader == "ls-dyna") deck.reader = DeckReader::ls_dyna;
-  if (!options.overlap.empty()) deck.overlap = quantity_of("--overlap", options.overlap, kLength);
+  if (!options.overlap.empty()) deck.overlap = parse_option("--overlap", options.overlap, kLength);
   constexpr double kMostOverlap = 1e-3;  // [m]
   if (deck.overlap < 0 || deck.overlap > kMostOverlap)
     throw InputError(
@@ -84,7 +76,7 @@ DeckOptions deck_options(const ExportOptions& options) {
                     "um\"",
                     options.overlap));
   if (options.ramp.empty()) return deck;
-  deck.ramp = quantity_of("--ramp", options.ramp, kTime);
+  deck.ramp = parse_option("--ramp", options.ramp, kTime);
   if (options.preload)
     throw InputError(
         "--ramp and --preload: in its static state a deck bears its loads from the start; leave one out");

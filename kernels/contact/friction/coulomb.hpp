@@ -10,9 +10,9 @@ struct CoulombFriction {
   double friction_coefficient = 0;  ///< f [-]
 
   struct State {};
-  static constexpr bool kUniform = true;
 
-  constexpr bool frictionless() const { return friction_coefficient == 0; }
+  template <class Keep>
+  void keep_arrays(const Keep& /*keep*/) {}
   constexpr double advance(State&, const Sliding&) const { return friction_coefficient; }
 };
 

@@ -21,22 +21,9 @@ inline constexpr double kSlipping = 0.98;
 struct ElasticStick {
   double tangential_penalty;  ///< k_t [Pa/m]
 
-  struct Result {
-    Traction traction;  ///< at the end of the step [Pa]
-    bool slips;
-  };
-
   /// Traction at the end of a step [theory.md, eq. 10]. `slip` is the movement of the wheel's surface against
   /// the rail's in the step if the traction at its end were zero [m]; that traction takes `compliance` times
   /// itself from the slip [m/Pa]. `limit` is f p at the end of the step [Pa]; zero releases the traction.
-  constexpr Result advance(const Traction& before, const Traction& slip, double limit,
-                           double compliance) const {
-    const Traction stuck = stick(before, slip, compliance);
-    const double size = length(stuck);
-    return {shorten(stuck, size, limit), size > 0 && size >= kSlipping * limit};
-  }
-
-  /// The traction alone.
   template <class V>
   TREAD_INLINE TractionOf<V> traction(const TractionOf<V>& before, const TractionOf<V>& slip, const V& limit,
                                       const V& compliance) const {

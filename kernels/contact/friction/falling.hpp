@@ -16,9 +16,9 @@ struct FallingFriction {
   struct State {
     double fall = 0;  ///< f_0 - f [-]
   };
-  static constexpr bool kUniform = false;
 
-  constexpr bool frictionless() const { return false; }
+  template <class Keep>
+  void keep_arrays(const Keep& /*keep*/) {}
 
   /// f of steady slip at this speed [m/s].
   constexpr double steady(double speed) const { return friction_coefficient - fall(speed); }

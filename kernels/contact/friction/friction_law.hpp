@@ -3,8 +3,7 @@
 //
 // A law is a plain struct with
 //   State                      per integration point; plain doubles, or empty; zero where contact is fresh
-//   kUniform                   true if all points have one coefficient, which no point has to look up
-//   frictionless()             true if the coefficient is zero everywhere and always
+//   keep_arrays(keep)          replaces each pointer by keep(pointer, count), its copy on a device
 //   advance(state, sliding)    coefficient of friction f of a step from the sliding in the step before; moves
 //                              the state on
 // A new law is a header in this folder and one line in FrictionLaw.

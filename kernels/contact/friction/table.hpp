@@ -14,9 +14,12 @@ struct TableFriction {
   double start = 0;                     ///< of the table on the rail [m]
 
   struct State {};
-  static constexpr bool kUniform = false;
 
-  constexpr bool frictionless() const { return false; }
+  template <class Keep>
+  void keep_arrays(const Keep& keep) {
+    x = keep(x, places);
+    coefficient = keep(coefficient, places);
+  }
 
   constexpr double advance(State& /*state*/, const Sliding& sliding) const { return at(sliding.x); }
 

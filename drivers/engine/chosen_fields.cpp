@@ -1,4 +1,4 @@
-#include "drivers/engine/fields/chosen_fields.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 
 #include <fmt/core.h>
 
