@@ -69,9 +69,10 @@ enum class BenchMeasure {
 };
 
 /// Compares two files of `bench kernels --json`. Returns true if no row of `after` is slower than its
-/// counterpart in `before` by more than the larger of both spreads. InputError where a file is no such file
-/// or no row has a counterpart.
+/// counterpart in `before` by more than the larger of both spreads, 10 % at most, and all of `before` have
+/// one; `common`: rows without a counterpart do not count. InputError where a file is no such file or no row
+/// has a counterpart.
 bool compare_benchmarks(const std::filesystem::path& before, const std::filesystem::path& after,
-                        BenchMeasure measure);
+                        BenchMeasure measure, bool common);
 
 }  // namespace tread

@@ -22,6 +22,7 @@ struct Recorded {
 constexpr const char* kRate = "element_steps_per_s";
 constexpr const char* kInstructions = "instructions_per_element_step";
 constexpr double kInstructionSpread = 0.03;  ///< calls of contact_search differ
+constexpr double kLargestSpread = 0.1;       ///< a noisier row does not excuse a larger loss [-]
 
 const char* unit_of(BenchMeasure measure) {
   if (measure == BenchMeasure::rate) return "1e6/s";
@@ -68,7 +69,7 @@ std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path, BenchM
 }  // namespace
 
 bool compare_benchmarks(const std::filesystem::path& before_path, const std::filesystem::path& after_path,
-                        BenchMeasure measure) {
+                        BenchMeasure measure, bool common) {
   const auto before = read_rows(before_path, measure);
   const auto after = read_rows(after_path, measure);
   const char* const unit = unit_of(measure);
@@ -78,29 +79,42 @@ bool compare_benchmarks(const std::filesystem::path& before_path, const std::fil
                                              {"Change", Align::right},
                                              {"Spread", Align::right},
                                              {""}});
-  int regressions = 0;
+  int regressions = 0, noisy = 0;
   for (const auto& [key, now] : after) {
     const auto then = before.find(key);
     if (then == before.end()) continue;
     const double ratio = now.value / then->second.value;
     const double change = (measure == BenchMeasure::instructions ? 1 / ratio : ratio) - 1;
-    const double spread = std::max(now.spread, then->second.spread);
+    const double recorded = std::max(now.spread, then->second.spread);
+    const double spread = std::min(recorded, kLargestSpread);
     const bool slower = change < -spread;
     regressions += slower;
+    noisy += recorded > spread;
     std::vector<std::string>& cells = table.rows.emplace_back(key_cells(key));
-    cells.insert(cells.end(), {fmt::format("{:.4g}", then->second.value), fmt::format("{:.4g}", now.value),
-                               fmt::format("{:+.1f} %", 100 * change), fmt::format("{:.1f} %", 100 * spread),
-                               slower ? "SLOWER" : (change > spread ? "faster" : "")});
+    cells.insert(cells.end(),
+                 {fmt::format("{:.4g}", then->second.value), fmt::format("{:.4g}", now.value),
+                  fmt::format("{:+.1f} %", 100 * change), fmt::format("{:.1f} %", 100 * recorded),
+                  slower ? "SLOWER" : (change > spread ? "faster" : "")});
   }
   if (table.rows.empty())
     throw InputError(fmt::format(
         "bench compare: no row of '{}' has a counterpart in '{}': same kernel, path, precision, backend, "
         "lanes, threads and elements, and what is compared counted in both",
         after_path.string(), before_path.string()));
-  fmt::print("{}{} rows compared, {} only before, {} only after, {} slower by more than the spread\n",
-             plain_text(table), table.rows.size(), before.size() - table.rows.size(),
-             after.size() - table.rows.size(), regressions);
-  return regressions == 0;
+  const std::size_t compared = table.rows.size();
+  const std::size_t missing = before.size() - compared;
+  for (const auto& [key, then] : before) {
+    if (common || after.contains(key)) continue;
+    std::vector<std::string>& cells = table.rows.emplace_back(key_cells(key));
+    cells.insert(cells.end(), {fmt::format("{:.4g}", then.value), "", "", "", "MISSING"});
+  }
+  fmt::print(
+      "{}{} rows compared, {} only before, {} only after, {} slower by more than the spread or {:g} %\n",
+      plain_text(table), compared, missing, after.size() - compared, regressions, 100 * kLargestSpread);
+  if (noisy > 0)
+    fmt::print("{} rows spread by more than {:g} %, which excuses no larger loss: measure them again\n",
+               noisy, 100 * kLargestSpread);
+  return regressions == 0 && (common || missing == 0);
 }
 
 }  // namespace tread

@@ -11,7 +11,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/rank_parts.hpp"
-#include "drivers/engine/fields/chosen_fields.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/fields/node_fields.hpp"
 #include "drivers/engine/ranks/rank_fields.hpp"
 #include "drivers/engine/ranks/rank_shares.hpp"

@@ -56,8 +56,7 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   const double observed = 4 * a;
   bodies.guided = true;
   const auto run = [&](double mu) {
-    bodies.roll_on(speed, 1.3 * speed * ramp + observed, observed,
-                   fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
+    bodies.roll_on(speed, 1.3 * speed * ramp + observed, observed, smooth_traction(mu, ramp));
     return roll_tyre(bodies, observed, progress);
   };
   const Rolled free = run(0);

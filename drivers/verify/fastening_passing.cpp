@@ -9,13 +9,13 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/beam/beam_passage.hpp"
-#include "drivers/engine/simulation.hpp"
 #include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/engine/start/run_in.hpp"
 #include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
 #include "drivers/verify/force_harmonics.hpp"
+#include "drivers/verify/ride.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
@@ -44,20 +44,17 @@ ForceHistory rolled(Model& model, const Preload& preload, const ProgressText& pr
   const double stable = motion.step_safety * step_limit(model).stable_step;
   // The run is a little longer than the distance, so that it covers the distance.
   const auto steps = static_cast<std::int64_t>(std::ceil(1.002 * motion.duration / stable));
-  Simulation simulation(model, preload, stable);
   constexpr double kInterval = 1e-5;
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, std::llround(kInterval / stable)));
+  WholeRun run(model, preload, stable, steps, std::max<std::int64_t>(1, std::llround(kInterval / stable)));
   ForceHistory curve;
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
-    const Sample& sample = simulation.sample();
+  run.roll([&] {
+    const Sample& sample = run.simulation.sample();
     curve.time.push_back(sample.time);
     curve.x.push_back(sample.wheel_x);
     curve.force.push_back(sample.vertical_force);
     if (curve.time.size() % 200 == 0)
       progress(fmt::format("x {:.3f} m, F_N {:.2f} kN", sample.wheel_x, 1e-3 * sample.vertical_force));
-  }
+  });
   return curve;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/interpolation.hpp"
 
 namespace tread {
 
@@ -13,18 +14,12 @@ Harmonics harmonics(const ForceHistory& curve, double period, int periods, doubl
   const double first = last - periods * period;
   if (curve.x.empty() || curve.x.front() > first || curve.x.back() < last)
     throw NumericalError("verify: the wheel's way does not cover the periods to evaluate");
-  const auto value = [&](double x) {
-    const auto above = std::upper_bound(curve.x.begin() + 1, curve.x.end() - 1, x);
-    const auto i = static_cast<std::size_t>(above - curve.x.begin()) - 1;
-    const double share = (x - curve.x[i]) / (curve.x[i + 1] - curve.x[i]);
-    return (1 - share) * curve.force[i] + share * curve.force[i + 1];
-  };
   constexpr int kParts = 400;  // parts of a period
   const int points = kParts * periods;
   std::vector<std::complex<double>> sums(static_cast<std::size_t>(count) + 1);
   for (int i = 0; i < points; ++i) {
     const double x = first + period * (i + 0.5) / kParts;
-    const double force = value(x);
+    const double force = value_at(curve.x, curve.force, x);
     for (std::size_t n = 0; n < sums.size(); ++n)
       sums[n] +=
           force * std::polar(1.0 / points, -2 * std::numbers::pi * static_cast<double>(n) * x / period);

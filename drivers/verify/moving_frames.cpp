@@ -136,7 +136,7 @@ FrameMoment moment_of(const Model& model, const Simulation& simulation) {
   m.spin = sample.wheel_spin;
   m.force = sample.vertical_force;
   m.residual = sample.energy.residual;
-  m.loss = sample.energy.damping_loss;
+  m.loss = sample.energy.contact_loss;
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
   const int quads = static_cast<int>(block.section.quads.size());
   for (int station = 0; station < block.station_count(); ++station)

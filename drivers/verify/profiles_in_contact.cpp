@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
+#include "drivers/engine/start/poses.hpp"
 #include "drivers/verify/cases.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/half_space/half_space.hpp"
@@ -139,68 +140,87 @@ class ProfilesOnHalfSpace {
   half_space::NormalContact contact_;
 };
 
-CaseResult profiles_in_contact(const VerifyInputs& inputs, const ProgressText& progress) {
-  CaseResult result;
-  const auto chosen = [&](double offset) { return offset >= inputs["first"] && offset <= inputs["last"]; };
-  if (std::ranges::none_of(kOffsets, chosen)) {
-    std::string offsets;
-    for (const double offset : kOffsets)
-      offsets += fmt::format("{}{:g}", offsets.empty() ? "" : ", ", 1e3 * offset);
+/// Wheel and rail pressed together at one offset, and their half-spaces.
+struct PressedProfiles {
+  double load, max_pressure, area;  ///< [N], nodal average [Pa], [m2]
+  double centre;                    ///< y of the pressure's middle [m]
+  double semi_axis;                 ///< Hertz's smaller one [m]
+  SectionPose rail, wheel;
+  ProfilesOnHalfSpace theory;
+};
+
+PressedProfiles press_profiles(const Scene& scene, const ProgressText& progress) {
+  Model model(scene);
+  progress(fmt::format("{} elements, lateral offset {:g} mm", model.elements(),
+                       1e3 * scene.wheel->lateral_offset));
+  const Preload preload = solve_preload(model, {}, progress);
+  const double load = -preload.contact.force_on_rail.z;
+  const double* u = preload.displacement.data();
+  const SectionPose rail = head_pose(model, u, 0), wheel = wheel_pose(model, u);
+  const double centre = preload.contact.centre.y;
+  return {load,
+          model.contact->nodes().max_pressure(),
+          preload.contact.area,
+          centre,
+          std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y),
+          rail,
+          wheel,
+          {model, centre, {wheel.roll - rail.roll, wheel.shift - rail.shift}, load}};
+}
+
+void judge_profiles(const std::string& at, const PressedProfiles& pressed, const VerifyInputs& inputs,
+                    std::vector<Finding>& findings) {
+  const ProfilesOnHalfSpace& theory = pressed.theory;
+  const half_space::NormalContact& contact = theory.contact();
+  const double element = inputs["element_size"];
+  const double local = theory.semi_axis();
+  constexpr double kNarrow = 0.7;  // less of Hertz's semi-axis: the larger of two places that carry
+  const bool narrow = local < kNarrow * pressed.semi_axis;
+  const double semi_axis = narrow ? local : pressed.semi_axis;
+  // The bounds are those of 1.1 mm on a semi-axis of 5.25 mm, as in Hertz's cases.
+  const double coarse = (element / 1.1e-3) * (5.25e-3 / semi_axis);
+  const double fewest = narrow ? 3 : 1 / 0.7;  // elements on a semi-axis; 1 / 0.7 as in Hertz's cases
+  const bool resolved = semi_axis > fewest * element;
+  const auto bound = [&](double share) { return resolved ? std::optional(share * coarse) : std::nullopt; };
+  const auto add = [&](const char* quantity, const char* unit, double value, double reference,
+                       std::optional<double> largest, bool absolute = false) {
+    findings.push_back({at + quantity, unit, value, reference, largest, absolute});
+  };
+  add("largest pressure, nodal average", "MPa", 1e-6 * pressed.max_pressure, 1e-6 * contact.max_pressure,
+      bound(0.03));
+  add("patch area", "mm2", 1e6 * pressed.area, 1e6 * contact.area, bound(0.05));
+  add("F_N", "kN", 1e-3 * pressed.load, 1e-3 * inputs["load"], 1e-5);
+  add("middle of the pressure across", "mm", 1e3 * pressed.centre, 1e3 * theory.middle(), 0.1, true);
+  add("roll of the wheel, of the rail's head", "mrad", 1e3 * pressed.wheel.roll, 1e3 * pressed.rail.roll, {},
+      true);
+  add("shift of the wheel, of the rail's head", "mm", 1e3 * pressed.wheel.shift, 1e3 * pressed.rail.shift, {},
+      true);
+  add(resolved ? "semi-axis where the pressure is largest; element"
+               : "semi-axis where the pressure is largest; element: not resolved",
+      "mm", 1e3 * semi_axis, 1e3 * element, {}, true);
+}
+
+/// Offsets between the inputs' first and last [m]. Throws InputError if there is none.
+std::vector<double> chosen_offsets(const VerifyInputs& inputs) {
+  std::vector<double> chosen;
+  std::string offsets;
+  for (const double offset : kOffsets) {
+    if (offset >= inputs["first"] && offset <= inputs["last"]) chosen.push_back(offset);
+    offsets += fmt::format("{}{:g}", offsets.empty() ? "" : ", ", 1e3 * offset);
+  }
+  if (chosen.empty())
     throw InputError(
         fmt::format("verify: none of the offsets, {} mm, lies between first = {:g} mm and last = {:g} mm; "
                     "state a smaller first or a larger last",
                     offsets, 1e3 * inputs["first"], 1e3 * inputs["last"]));
-  }
-  for (const double offset : kOffsets) {
-    if (!chosen(offset)) continue;
-    Model model(wheel_on_rail(inputs, offset));
-    progress(fmt::format("{} elements, lateral offset {:g} mm", model.elements(), 1e3 * offset));
-    const Preload preload = solve_preload(model, {}, progress);
-    const double load = -preload.contact.force_on_rail.z;
-    const double* u = preload.displacement.data();
-    const SectionPose rail = head_pose(model, u, 0), wheel = wheel_pose(model, u);
-    const SectionPose pose{wheel.roll - rail.roll, wheel.shift - rail.shift};
-    const ProfilesOnHalfSpace theory(model, preload.contact.centre.y, pose, load);
-    const half_space::NormalContact& contact = theory.contact();
-    const std::string name = fmt::format("offset {:g} mm", 1e3 * offset);
-    const double hertz = std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
-    const double local = theory.semi_axis();
-    constexpr double kNarrow = 0.7;  // less of Hertz's semi-axis: the larger of two places that carry
-    const bool narrow = local < kNarrow * hertz;
-    const double semi_axis = narrow ? local : hertz;
-    // The bounds are those of 1.1 mm on a semi-axis of 5.25 mm, as in Hertz's cases.
-    const double coarse = (inputs["element_size"] / 1.1e-3) * (5.25e-3 / semi_axis);
-    const double fewest = narrow ? 3 : 1 / 0.7;  // elements on a semi-axis; 1 / 0.7 as in Hertz's cases
-    const bool resolved = semi_axis > fewest * inputs["element_size"];
-    const auto bound = [&](double share) { return resolved ? std::optional(share * coarse) : std::nullopt; };
-    result.findings.push_back({name + ": largest pressure, nodal average", "MPa",
-                               1e-6 * model.contact->nodes().max_pressure(), 1e-6 * contact.max_pressure,
-                               bound(0.03)});
-    result.findings.push_back(
-        {name + ": patch area", "mm2", 1e6 * preload.contact.area, 1e6 * contact.area, bound(0.05)});
-    result.findings.push_back({name + ": F_N", "kN", 1e-3 * load, 1e-3 * inputs["load"], 1e-5});
-    result.findings.push_back({name + ": middle of the pressure across", "mm", 1e3 * preload.contact.centre.y,
-                               1e3 * theory.middle(), 0.1, true});
-    result.findings.push_back({name + ": roll of the wheel, of the rail's head",
-                               "mrad",
-                               1e3 * wheel.roll,
-                               1e3 * rail.roll,
-                               {},
-                               true});
-    result.findings.push_back({name + ": shift of the wheel, of the rail's head",
-                               "mm",
-                               1e3 * wheel.shift,
-                               1e3 * rail.shift,
-                               {},
-                               true});
-    result.findings.push_back(
-        {name + ": semi-axis where the pressure is largest; element" + (resolved ? "" : ": not resolved"),
-         "mm",
-         1e3 * semi_axis,
-         1e3 * inputs["element_size"],
-         {},
-         true});
-  }
+  return chosen;
+}
+
+CaseResult profiles_in_contact(const VerifyInputs& inputs, const ProgressText& progress) {
+  CaseResult result;
+  for (const double offset : chosen_offsets(inputs))
+    judge_profiles(fmt::format("offset {:g} mm: ", 1e3 * offset),
+                   press_profiles(wheel_on_rail(inputs, offset), progress), inputs, result.findings);
   return result;
 }
 

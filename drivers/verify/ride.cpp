@@ -16,18 +16,16 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   results.dt = scene.motion->step_safety * results.limit.stable_step;
   const std::int64_t steps = step_count(scene, results.dt);
   progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), steps, results.dt));
-  Simulation simulation(model, results.preload, results.dt);
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / samples));
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  WholeRun run(model, results.preload, results.dt, steps, std::max<std::int64_t>(1, steps / samples));
+  const Simulation& simulation = run.simulation;
+  run.roll([&] {
     const Sample& sample = simulation.sample();
     results.samples.push_back(sample);
     if (results.samples.size() % 100 == 0)
       progress(fmt::format("t {:.3f} ms, x {:.1f} mm, F_N {:.2f} kN, F_L {:.2f} kN", 1e3 * sample.time,
                            1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
                            1e-3 * sample.longitudinal_force));
-  }
+  });
   results.steps = simulation.steps();
   results.momentum = simulation.momentum_check();
   if (simulation.surface()) results.surface_fields = *simulation.surface();
@@ -39,9 +37,8 @@ WholeRun whole_run(Model& model, const Preload& preload, int samples, std::int64
   const MotionSpec& motion = *model.scene.motion;
   const double longest = motion.step_safety * step_limit(model).stable_step;
   const std::int64_t steps = std::max(least, step_count(model.scene, longest));
-  WholeRun run{steps, Simulation(model, preload, motion.duration / static_cast<double>(steps))};
-  run.simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / samples));
-  return run;
+  return {model, preload, motion.duration / static_cast<double>(steps), steps,
+          std::max<std::int64_t>(1, steps / samples)};
 }
 
 double angular_momentum_error(const Model& model, const RunResults& results) {

@@ -15,10 +15,16 @@ namespace tread {
 /// summary values as in summary.json. Throws NumericalError as a run would.
 RunResults ride(Model& model, int samples, const ProgressText& progress);
 
-/// Rolling whose last step ends at the scene's duration.
+/// Rolling by a number of steps.
 struct WholeRun {
   std::int64_t steps;
   Simulation simulation;
+
+  /// Of `count` steps of dt [s] one in `every` is sampled.
+  WholeRun(Model& model, const Preload& preload, double dt, std::int64_t count, std::int64_t every)
+      : steps(count), simulation(model, preload, dt) {
+    simulation.set_sampling_interval(every);
+  }
 
   /// Steps to the end. `see` receives the simulation after every sampled step.
   template <class See>
@@ -30,8 +36,8 @@ struct WholeRun {
   }
 };
 
-/// Rolling with the fewest steps of one size that the scene's step_safety allows, or `least` steps if these
-/// are more. About `samples` samples.
+/// Rolling to the end of the scene's duration with the fewest steps of one size that its step_safety allows,
+/// or `least` steps if these are more. About `samples` samples.
 WholeRun whole_run(Model& model, const Preload& preload, int samples, std::int64_t least = 1);
 
 /// Mean over the samples from `first` [s] on.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "drivers/verify/ride.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
@@ -96,16 +97,14 @@ duration = "{duration} s"
 SmallRun run_small(const Scene& scene, const Preload& preload, double dt, std::int64_t steps,
                    const std::function<void(const Simulation&)>& see) {
   Model model(scene);  // contact carries histories: each run needs its own model
-  Simulation simulation(model, preload, dt);
-  simulation.set_sampling_interval(16);
+  WholeRun whole(model, preload, dt, steps, 16);
+  const Simulation& simulation = whole.simulation;
   SmallRun run;
   try {
-    while (simulation.steps() < steps) {
-      simulation.step();
-      if (!simulation.sampled()) continue;
+    whole.roll([&] {
       run.largest_share = std::max(run.largest_share, simulation.energy_watch().share());
       if (see) see(simulation);
-    }
+    });
   } catch (const NumericalError& error) {
     run.stopped = true;
     run.reason = error.what();

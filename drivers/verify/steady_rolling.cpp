@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/roll_tyre.hpp"
 #include "kernels/half_space/half_space_steady.hpp"
@@ -151,18 +150,12 @@ Figure shear_figure(const TyreOnBlock& bodies, const Rolled& rolled, const HalfS
 }
 
 CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progress) {
-  TyreOnBlock bodies = tyre_of(inputs, false);
+  TyreOnBlock bodies = driven_tyre(inputs);
   const double mu = inputs["mu"];
-  bodies.friction = inputs["friction"];
-  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
-    throw InputError(
-        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
-  bodies.guided = true;  // light and rigid: motions excited by the torque decay fast
   const double observed = 5 * bodies.hertz_patch().semi_axis_x;
-  bodies.roll_on(speed, speed * 1.15 * ramp + observed, observed,
-                 fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
+  bodies.roll_on(speed, speed * 1.15 * ramp + observed, observed, smooth_traction(mu, ramp));
   const Rolled rolled = roll_tyre(bodies, observed, progress);
   const HalfSpace half_space(bodies, rolled.force);
   const SteadyReference reference = reference_of(bodies, half_space, rolled.force);
@@ -201,9 +194,7 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
 }  // namespace
 
 VerifyCase steady_rolling_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
-  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
-  inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
+  std::vector<VerifyInput> inputs = driven_inputs();
   inputs.push_back({"speed", &kSpeed, "m/s", 40, {1, 150}, "the rolling speed"});
   inputs.push_back({"ramp", &kTime, "ms", 0.75e-3, {1e-5, 0.1}, "the time in which the torque grows"});
   return {"steady_rolling", "a wheel of two radii rolls steadily under traction, against the half-space",

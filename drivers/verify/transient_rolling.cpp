@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "core/math/statistics.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
@@ -180,21 +179,15 @@ Figure transient_figure(const Transient& transient, const Curve& ours, const Tra
 }
 
 CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& progress) {
-  TyreOnBlock bodies = tyre_of(inputs, false);
-  bodies.friction = inputs["friction"];
-  bodies.guided = true;
+  TyreOnBlock bodies = driven_tyre(inputs);
   const double mu = inputs["mu"];
-  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
-    throw InputError(
-        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
   const double a = bodies.hertz_patch().semi_axis_x;
   const double way = inputs["way"] * a;
   const double grown = inputs["growth"] * a;
   // A torque that grows as half a cosine of 2.5 periods leaves the wheel nearly at rest on its patch.
   const auto set_speed = [&](double period) {
     const double ramp = kPeriods * period;
-    bodies.roll_on(grown / ramp, way, way,
-                   fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
+    bodies.roll_on(grown / ramp, way, way, smooth_traction(mu, ramp));
   };
   set_speed(1e-3);
   set_speed(turning_period(bodies));
@@ -233,9 +226,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
 }  // namespace
 
 VerifyCase transient_rolling_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false, 1.6e-3);
-  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
-  inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
+  std::vector<VerifyInput> inputs = driven_inputs(1.6e-3);
   inputs.push_back(
       {"growth", nullptr, "", 0.15, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
   inputs.push_back({"way", nullptr, "", 3, {1, 10}, "the way in semi-axes of the patch"});

@@ -21,42 +21,7 @@ std::string wheel_material(const ElasticConstants& wheel) {
       wheel.youngs_modulus, wheel.poissons_ratio);
 }
 
-}  // namespace
-
-HertzPatch TyreOnBlock::hertz_patch() const {
-  const double modulus = elastic.contact_modulus();
-  if (crown_radius > 0) return hertz(radius, crown_radius, modulus, load);
-  const double per_width = load / element_size;
-  const double a = std::sqrt(4 * per_width * radius / (std::numbers::pi * modulus));
-  return {a, 0, 2 * per_width / (std::numbers::pi * a), 0};
-}
-
-double TyreOnBlock::fineness() const {
-  const HertzPatch patch = hertz_patch();
-  return (element_size / 1.1e-3) * (5.25e-3 / std::min(patch.semi_axis_x, patch.semi_axis_y));
-}
-
-void TyreOnBlock::roll_on(double speed, double way, double observed, const std::string& keys) {
-  const double a = hertz_patch().semi_axis_x;
-  roll = way;
-  fine = {way - observed - 2 * a, way + 2 * a};
-  more = fmt::format("[motion]\nspeed = \"{} m/s\"\nduration = \"{} s\"\n{}\n", speed, way / speed, keys);
-}
-
-Scene TyreOnBlock::scene() const {
-  const HertzPatch patch = hertz_patch();
-  const double a = std::max(patch.semi_axis_x, patch.semi_axis_y);
-  const double ring = thickness > 0 ? thickness : std::min(12 * a, 0.6 * radius);
-  const Span zone = fine.empty() ? Span{-2 * patch.semi_axis_x, 2 * patch.semi_axis_x} : fine;
-  const double shift = grid_offset * element_size;
-  const double end = 10 * a + 0.05 * radius;  // length of the block beyond the patch
-  const double left = end + std::max(0.0, -zone.first);
-  const bool slice = crown_radius == 0;
-  const double width = slice ? element_size : std::min(16 * a, 1.9 * crown_radius);
-  const bool one_material = elastic.wheel.youngs_modulus == elastic.rail.youngs_modulus &&
-                            elastic.wheel.poissons_ratio == elastic.rail.poissons_ratio;
-  const std::string text = fmt::format(
-      R"([scene]
+constexpr const char* kTyreOnBlock = R"([scene]
 element_size = "{h} m"
 gravity = "0 m/s2"
 plane_strain = {slice}
@@ -92,8 +57,44 @@ friction = {f}
 points = {points}
 surface = "{surface}"
 {penetration}
-)",
-      fmt::arg("h", element_size), fmt::arg("start", zone.first + shift),
+)";
+
+}  // namespace
+
+HertzPatch TyreOnBlock::hertz_patch() const {
+  const double modulus = elastic.contact_modulus();
+  if (crown_radius > 0) return hertz(radius, crown_radius, modulus, load);
+  const double per_width = load / element_size;
+  const double a = std::sqrt(4 * per_width * radius / (std::numbers::pi * modulus));
+  return {a, 0, 2 * per_width / (std::numbers::pi * a), 0};
+}
+
+double TyreOnBlock::fineness() const {
+  const HertzPatch patch = hertz_patch();
+  return (element_size / 1.1e-3) * (5.25e-3 / std::min(patch.semi_axis_x, patch.semi_axis_y));
+}
+
+void TyreOnBlock::roll_on(double speed, double way, double observed, const std::string& keys) {
+  const double a = hertz_patch().semi_axis_x;
+  roll = way;
+  fine = {way - observed - 2 * a, way + 2 * a};
+  more = fmt::format("[motion]\nspeed = \"{} m/s\"\nduration = \"{} s\"\n{}\n", speed, way / speed, keys);
+}
+
+Scene TyreOnBlock::scene() const {
+  const HertzPatch patch = hertz_patch();
+  const double a = std::max(patch.semi_axis_x, patch.semi_axis_y);
+  const double ring = thickness > 0 ? thickness : std::min(12 * a, 0.6 * radius);
+  const Span zone = fine.empty() ? Span{-2 * patch.semi_axis_x, 2 * patch.semi_axis_x} : fine;
+  const double shift = grid_offset * element_size;
+  const double end = 10 * a + 0.05 * radius;  // length of the block beyond the patch
+  const double left = end + std::max(0.0, -zone.first);
+  const bool slice = crown_radius == 0;
+  const double width = slice ? element_size : std::min(16 * a, 1.9 * crown_radius);
+  const bool one_material = elastic.wheel.youngs_modulus == elastic.rail.youngs_modulus &&
+                            elastic.wheel.poissons_ratio == elastic.rail.poissons_ratio;
+  const std::string text = fmt::format(
+      kTyreOnBlock, fmt::arg("h", element_size), fmt::arg("start", zone.first + shift),
       fmt::arg("zone", zone.last - zone.first), fmt::arg("E", elastic.rail.youngs_modulus),
       fmt::arg("nu", elastic.rail.poissons_ratio),
       fmt::arg("wheel_name", one_material ? "steel" : "wheel_steel"),
@@ -170,6 +171,28 @@ TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
         "{:.3g} to {:.3g} mm",
         1e3 * bodies.element_size, 1e3 * smallest, 1e3 * smallest / 40, 0.7e3 * smallest));
   return bodies;
+}
+
+std::vector<VerifyInput> driven_inputs(double element_size) {
+  std::vector<VerifyInput> inputs = tyre_inputs(false, element_size);
+  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
+  inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
+  return inputs;
+}
+
+TyreOnBlock driven_tyre(const VerifyInputs& inputs) {
+  TyreOnBlock bodies = tyre_of(inputs, false);
+  bodies.friction = inputs["friction"];
+  bodies.guided = true;  // light and rigid: motions excited by the torque decay fast
+  const double mu = inputs["mu"];
+  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
+    throw InputError(
+        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
+  return bodies;
+}
+
+std::string smooth_traction(double mu, double ramp) {
+  return fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp);
 }
 
 void add_dundurs(const TyreOnBlock& bodies, CaseResult& result) {

@@ -54,6 +54,14 @@ struct TyreOnBlock {
 std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size = 1.1e-3);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
 
+/// A tyre with a guided bore and friction, which a torque drives. Inputs: those of tyre_inputs(false),
+/// friction, mu. driven_tyre() throws InputError unless mu is below 0.95 of friction and not zero.
+std::vector<VerifyInput> driven_inputs(double element_size = 1.1e-3);
+TyreOnBlock driven_tyre(const VerifyInputs& inputs);
+
+/// The key of [motion] for a torque that grows to mu F_N within `ramp` [s].
+std::string smooth_traction(double mu, double ramp);
+
 /// States Dundurs' constant where the bodies are not alike: the reference leaves it out.
 void add_dundurs(const TyreOnBlock& bodies, CaseResult& result);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/roll_tyre.hpp"
 #include "kernels/half_space/half_space_stress.hpp"
@@ -106,13 +105,8 @@ double rolling_reference(const TyreOnBlock& bodies, const Rolled& rolled) {
 }
 
 CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText& progress) {
-  TyreOnBlock bodies = tyre_of(inputs, false);
+  TyreOnBlock bodies = driven_tyre(inputs);
   const double mu = inputs["mu"];
-  bodies.friction = inputs["friction"];
-  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
-    throw InputError(
-        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
-  bodies.guided = true;
   const Pressed pressed = press_wheel(bodies, progress);
 
   const double speed = inputs["speed"];
@@ -120,8 +114,7 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
   const double a = bodies.hertz_patch().semi_axis_x;
   // Rolling is steady after two semi-axes; then the patch passes the observed stretch from end to end.
   const double observed = 2.6 * a + std::max(6 * bodies.element_size, a);
-  bodies.roll_on(speed, speed * ramp + 2 * a + observed, observed + 2 * a,
-                 fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
+  bodies.roll_on(speed, speed * ramp + 2 * a + observed, observed + 2 * a, smooth_traction(mu, ramp));
   const Rolled rolled = roll_tyre(bodies, observed, progress);
   const double rolling = rolling_reference(bodies, rolled);
 
@@ -168,9 +161,7 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
 }  // namespace
 
 VerifyCase von_mises_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false, 1.6e-3);
-  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
-  inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient of the rolling wheel"});
+  std::vector<VerifyInput> inputs = driven_inputs(1.6e-3);
   inputs.push_back({"speed", &kSpeed, "m/s", 5, {0.5, 20}, "the rolling speed"});
   inputs.push_back({"ramp", &kTime, "ms", 1.5e-3, {1e-5, 0.1}, "the time in which the torque grows"});
   return {"von_mises", "stress of the surface elements, at rest and rolling, against the half-space",

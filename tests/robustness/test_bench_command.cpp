@@ -104,10 +104,12 @@ TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
   write("same", 96, 0.02);
   write("slow", 94, 0.02);
   write("noisy", 94, 0.1);
+  write("wild", 85, 0.5);
   write("fast", 200, 0.01);
   write("wasteful", 200, 0.01, 0.3);
   write("uncounted", 100, 0.01, 0);
-  for (const auto& [after, code] : {std::pair{"same", 0}, {"slow", 3}, {"noisy", 0}, {"fast", 0}})
+  for (const auto& [after, code] :
+       {std::pair{"same", 0}, {"slow", 3}, {"noisy", 0}, {"wild", 3}, {"fast", 0}})
     EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path(after))), code) << after;
   for (const auto& [after, code] : {std::pair{"slow", 0}, {"wasteful", 3}, {"uncounted", 2}})
     EXPECT_EQ(call(fmt::format("compare --by limit {} {}", path("before"), path(after))), code) << after;
@@ -126,6 +128,21 @@ TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
   std::ofstream(folder_ / "other") << "{\"kernel\": \"k\"}\n";
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("other"))), 2);
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("none"))), 2);
+}
+
+TEST_F(Bench, CompareMissesKernelsThatAreGone) {
+  const auto row = [](const char* kernel) {
+    return fmt::format(
+        "{{\"kernel\": \"{}\", \"path\": \"p\", \"precision\": \"double\", \"backend\": \"openmp\", "
+        "\"lanes\": \"avx2\", \"threads\": 2, \"elements\": 10, \"element_steps_per_s\": 100, "
+        "\"spread\": 0.02}}\n",
+        kernel);
+  };
+  std::ofstream(folder_ / "both") << row("here") << row("gone");
+  std::ofstream(folder_ / "one") << row("here");
+  EXPECT_EQ(call(fmt::format("compare {} {}", path("both"), path("one"))), 3);
+  EXPECT_EQ(call(fmt::format("compare --common {} {}", path("both"), path("one"))), 0);
+  EXPECT_EQ(call(fmt::format("compare {} {}", path("one"), path("both"))), 0);
 }
 
 TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {

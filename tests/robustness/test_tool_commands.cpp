@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
     EXPECT_TRUE(has(outcome.out, part)) << part << outcome.out;
   EXPECT_EQ(content("calibration.csv"), "mine");
   EXPECT_EQ(outcome.out, content("summary.json"));
-  EXPECT_TRUE(content("multibody.csv").starts_with("time [s],wheel_x [m],vertical_force [N],"));
+  EXPECT_TRUE(content("multibody.csv")
+                  .starts_with("time [s],wheel_x [m],vertical_force [N],wheel_deflection [m],"
+                               "rail_deflection [m],sprung_deflection [m],followed_depth [m]\n"));
   EXPECT_TRUE(content("map.csv").starts_with("speed [m/s],wavelength [m],"));
   for (const char* part :
        {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz", "Provenance"})

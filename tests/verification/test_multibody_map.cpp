@@ -8,13 +8,16 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/run/scene_content.hpp"
+#include "drivers/studies/multibody/local_parts.hpp"
+#include "drivers/studies/multibody/multibody_report.hpp"
 #include "drivers/studies/multibody/multibody_study.hpp"
-#include "drivers/studies/multibody/response_map.hpp"
+#include "io/report/markup.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 #include "tests/temporary_folder.hpp"
@@ -145,7 +148,7 @@ TEST(Calibration, RefusesARunWhoseFileHasChanged) {
   write("depths.txt", "# x [mm]  d [mm]\n0 0\n20 0.03\n40 0\n60 0.02\n80 0\n");
   const TransientRun run = read_transient_run(folder.path);
   const MultibodyModel model = multibody_model(run.scene, BeamTheory::euler);
-  const std::string file = "depths.txt has other contents here than there";
+  const std::string file = "corrugation.file is a .txt file of checksum ";
   EXPECT_NE(refusal_of([&] { calibrate(model, run, kQuick); }).find(file), std::string::npos);
   EXPECT_NE(refusal_of([&] { map_dot(model, run); }).find(file), std::string::npos);
 }
@@ -293,6 +296,74 @@ TEST(ResponseMap, DotsAreTheRunsOwnExtremes) {
   heavier.vehicle.unsprung_mass += 100;
   EXPECT_FALSE(map_dot(heavier, run).remark.empty());
   EXPECT_EQ(map_dot(heavier, run).max, dot.max);
+}
+
+TEST(ResponseMap, DotsOutsideHaveNoValueOfTheMap) {
+  MultibodyOutcome outcome;
+  outcome.model = model_of(300, 80);
+  outcome.result = run_multibody(outcome.model, kQuick);
+  const MapAxes axes = parse_map_axes({"speed=250:300:50km/h", "wavelength=70:80:10mm"});
+  outcome.map = response_map(outcome.model, axes, kQuick, false);
+  // Half a cell belongs to the map beyond the last value.
+  outcome.dots = {{"inside", 320 / 3.6, 0.084, 1.5, 0.5, ""},
+                  {"long", 300 / 3.6, 0.09, 1.5, 0.5, "other depth"},
+                  {"slow", 100 / 3.6, 0.08, 9, 0.5, ""}};
+  const Report report = multibody_report(outcome, "scene.toml", {});
+  const auto map = std::find_if(report.chapters.begin(), report.chapters.end(),
+                                [](const Chapter& chapter) { return chapter.title == "Map"; });
+  ASSERT_NE(map, report.chapters.end());
+  EXPECT_EQ(std::get<Heatmap>(map->blocks.at(0)).dots.size(), 1U);
+  const auto& rows = std::get<Table>(map->blocks.at(1)).rows;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0][4], readable(outcome.map->at(1, 1).max, 3));
+  EXPECT_EQ(rows[0][5], "");
+  EXPECT_EQ(rows[1][4], "-");
+  EXPECT_EQ(rows[1][5], "outside the map; other depth");
+  EXPECT_EQ(rows[2][4], "-");
+  EXPECT_EQ(rows[2][5], "outside the map");
+}
+
+TEST(ModelRange, ReachesToTheLowerTopOfRailAndWheel) {
+  MultibodyModel model = model_of(300, 80);
+  EXPECT_GE(top_of_modes(model, {}).frequency, 20e3);
+  EXPECT_EQ(top_of_modes(model, 10).part, "--modes 10");
+  model.solid = ModalBeam(model.rail, 0, 10, 5);
+  EXPECT_EQ(top_of_modes(model, {}).frequency, 6e3);
+  model.wheel.modes.resize(1);
+  model.wheel.top = 5e3;
+  EXPECT_EQ(top_of_modes(model, {}).part, "--wheel modal");
+}
+
+TEST(ModelRange, WavesBeyondTheModesWarn) {
+  const MultibodyModel model = model_of(300, 80);
+  EXPECT_TRUE(run_multibody(model, kQuick).warnings.empty());
+  const MultibodyStep few = {10, 1e-5};
+  const std::vector<std::string> warnings = run_multibody(model, few).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(warnings[0].starts_with(
+      "the shortest wave or surface, 80 mm, passes at 1042 Hz, and the modes of --modes 10 end at "))
+      << warnings[0];
+  const MapAxes axes = parse_map_axes({"speed=30:300:270km/h", "wavelength=80:480:400mm"});
+  EXPECT_TRUE(response_map(model, axes, kQuick, false).warnings.empty());
+  const ResponseMap map = response_map(model, axes, few, false);
+  ASSERT_EQ(map.warnings.size(), 1U);
+  EXPECT_TRUE(map.warnings[0].starts_with("in 1 of 4 cells of the map waves pass above ")) << map.warnings[0];
+}
+
+TEST(ModelRange, ForcesBeyondThePressedHalfSpacesWarn) {
+  MultibodyModel model = model_of(300, 80);
+  use_half_space_contact(model);
+  EXPECT_NEAR(model.sine.most(), 3 * model.vehicle.load(), 1e-6);
+  EXPECT_TRUE(run_multibody(model, kQuick).warnings.empty());
+  model.sine = SineContact(sine_under_wheel(model), model.scene.elastic_pair(), 1.1 * model.vehicle.load());
+  const std::vector<std::string> warnings = run_multibody(model, kQuick).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("--contact half-space presses up to 96.3 kN"), std::string::npos) << warnings[0];
+  const ResponseMap map =
+      response_map(model, parse_map_axes({"speed=300:300:50km/h", "wavelength=80:80:10mm"}), kQuick, false);
+  ASSERT_EQ(map.warnings.size(), 1U);
+  EXPECT_TRUE(map.warnings[0].starts_with("in 1 of 1 cells of the map F_N exceeds 96.3 kN"))
+      << map.warnings[0];
 }
 
 TEST(ResponseMap, DotsNameOtherSinesAndSurfaces) {

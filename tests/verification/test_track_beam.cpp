@@ -29,11 +29,15 @@ BeamProperties timoshenko_rail(double kappa) {
 
 /// Section of n x n quads of a rectangle.
 Section rectangle_section(double width, double height, int n) {
-  Section one;
-  one.p = {0, width, width, 0};
-  one.q = {0, 0, height, height};
-  one.quads = {{0, 1, 2, 3}};
-  return refined(one, n);
+  Section section;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      section.p.push_back(width * i / n);
+      section.q.push_back(height * j / n);
+      const int node = j * (n + 1) + i;
+      if (i < n && j < n) section.quads.push_back({node, node + 1, node + n + 2, node + n + 1});
+    }
+  return section;
 }
 
 TEST(BeamSectionProperties, OfARectangle) {

@@ -46,6 +46,7 @@ ModalWheel modal_wheel(const Scene& scene, const ForceRegion& region, double top
       solid.modes(some, {load}, {}, [](int n) { return n <= kEachWave ? kOfLowWheel : kOfHighWheel; });
 
   ModalWheel wheel;
+  wheel.top = top;
   const double highest = 2 * std::numbers::pi * top;
   std::vector<double> flexibility;
   for (std::size_t i = 0; i < some.size(); ++i) {

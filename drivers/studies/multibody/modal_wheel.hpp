@@ -22,6 +22,7 @@ struct WheelMode {
 struct ModalWheel {
   double mass = 0;  ///< of the rigid motion, the unsprung mass included [kg]
   std::vector<WheelMode> modes;
+  double top = 0;          ///< frequency below which it has modes [Hz]
   double flexibility = 0;  ///< of the motions beyond the modes, less that of a half-space [m/N]
   double spin = 0;         ///< [rad/s]
 };

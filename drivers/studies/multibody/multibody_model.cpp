@@ -266,13 +266,32 @@ std::vector<FootSpring> springs_of_held_foot(const ModalBeam& beam, const FootHo
   return springs;
 }
 
+bool foot_is_bound(const MultibodyModel& model) {
+  return !model.foot_supports.empty() || !model.foot_holds.empty();
+}
+
+/// Frequency below which a beam has modes unless their number is stated [Hz].
+double top_of_beam(const MultibodyModel& model) {
+  return foot_is_bound(model) ? kTopFrequencyOfFoot : kTopFrequency;
+}
+
 }  // namespace
 
+TopOfModes top_of_modes(const MultibodyModel& model, std::optional<int> modes) {
+  TopOfModes top{top_of_beam(model), "the beam"};
+  if (model.solid)
+    top = {kTopOfTrack, "--beam solid"};
+  else if (modes)
+    top = {wave_frequency(model.rail, (*modes - 1) * std::numbers::pi / model.scene.rail->length),
+           fmt::format("--modes {}", *modes), "more modes, or none"};
+  if (!model.wheel.modes.empty() && model.wheel.top < top.frequency) top = {model.wheel.top, "--wheel modal"};
+  return top;
+}
+
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
-  const bool foot = !model.foot_supports.empty() || !model.foot_holds.empty();
+  const bool foot = foot_is_bound(model);
   const double length = model.scene.rail->length;
-  const int count =
-      modes.value_or(modes_below(model.rail, length, foot ? kTopFrequencyOfFoot : kTopFrequency));
+  const int count = modes.value_or(modes_below(model.rail, length, top_of_beam(model)));
   ModalBeam beam = model.solid ? *model.solid
                                : ModalBeam(model.rail, -model.scene.rail->origin, length, count,
                                            head_spread(model.scene, model.rail),

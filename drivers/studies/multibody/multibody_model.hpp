@@ -54,6 +54,8 @@ struct MultibodyModel {
   ContactRelief relief(double x) const;
   /// The wheel as it spins at a speed [m/s].
   ModalWheel wheel_at(double at_speed) const;
+  /// Returns true if use_half_space_contact has not pressed the wheel with as large a force [N].
+  bool beyond_half_spaces(double force) const { return !sine.empty() && force > sine.most(); }
   /// Contact stiffness d F / d approach under the static load [N/m].
   double contact_stiffness() const;
 };
@@ -90,5 +92,15 @@ double apply_contact_filter(MultibodyModel& model);
 /// lower branch as stated; a solid rail as it is. Springs of the flexibility that the modes lack stand in for
 /// a held foot. [theory.md, eq. M5]
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes);
+
+/// Frequency up to which both rail and wheel have modes, but for a wheel that is a mass.
+struct TopOfModes {
+  double frequency = 0;                                   ///< [Hz]
+  std::string part;                                       ///< the part that has no higher ones, for readers
+  std::string way_out = "longer waves or a lower speed";  ///< to state
+};
+
+/// Top of the modes of modal_track() and the wheel.
+TopOfModes top_of_modes(const MultibodyModel& model, std::optional<int> modes);
 
 }  // namespace tread

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/math/interpolation.hpp"
 #include "drivers/process/progress.hpp"
@@ -35,18 +36,20 @@ Figure over_the_way(std::string name, std::string title, const MultibodyModel& m
   return figure;
 }
 
+Range whole_way(const MultibodyOutcome& o) {
+  return {o.result.samples.front().x, o.result.samples.back().x};
+}
+
 Range in_sight(const MultibodyOutcome& o) {
-  const Corrugation& c = o.model.corrugation;
-  const double first = c.smooth() ? o.model.scene.zone_start : c.first() - 0.12;
-  return {std::max(first, o.result.samples.front().x), o.result.samples.back().x};
+  return stretch_in_sight(o.model.scene, o.model.corrugation, whole_way(o));
 }
 
 Marker at_rest(const MultibodyModel& model) {
   return {1e-3 * model.vehicle.load(), "static"};
 }
 
-std::vector<double> kilonewtons(std::vector<double> values) {
-  for (double& v : values) v *= 1e-3;
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& v : values) v *= factor;
   return values;
 }
 
@@ -61,8 +64,8 @@ Figure passage_figure(const MultibodyOutcome& o) {
       panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 280));
   if (!smooth)
     near.panels.push_back(panel(
-        "Rail surface [mm]",
-        {curve("running surface under the wheel", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
+        "Surface [mm]",
+        {curve("surface that the wheel follows", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
   return near;
 }
 
@@ -73,11 +76,32 @@ Figure calibration_figure(const MultibodyOutcome& o) {
                                {c.first, c.last});
   figure.panels.push_back(
       panel("F_N [kN]",
-            {{"transient run", c.x, kilonewtons(c.run.values), Stroke::solid},
-             {"multi-body, Hertz spring", c.x, kilonewtons(c.before.values), Stroke::dashed},
-             {"multi-body, fitted spring", c.x, kilonewtons(c.after.values), Stroke::solid}},
+            {{"transient run", c.x, scaled(c.run.values, 1e-3), Stroke::solid},
+             {"multi-body, Hertz spring", c.x, scaled(c.before.values, 1e-3), Stroke::dashed},
+             {"multi-body, fitted spring", c.x, scaled(c.after.values, 1e-3), Stroke::solid}},
             {at_rest(o.model)}, 300));
   return figure;
+}
+
+/// The map's speeds [km/h] and wavelengths [mm].
+std::vector<double> shown_speeds(const ResponseMap& map) {
+  return scaled(map.axes.speed.values, 3.6);
+}
+std::vector<double> shown_wavelengths(const ResponseMap& map) {
+  return scaled(map.axes.wavelength.values, 1e3);
+}
+
+/// Point of the cell that holds a dot; nullptr outside the map. A single value has a cell of two percent.
+const MapPoint* point_there(const ResponseMap& map, const MapDot& dot) {
+  const auto cell = [](const std::vector<double>& values, double value) {
+    const std::vector<double> borders = cell_borders(values);
+    const bool inside = values.size() == 1 ? std::abs(value - values.front()) <= 0.01 * values.front()
+                                           : value >= borders.front() && value <= borders.back();
+    return inside ? std::optional(nearest(values, value)) : std::nullopt;
+  };
+  const auto speed = cell(shown_speeds(map), 3.6 * dot.speed);
+  const auto wavelength = cell(shown_wavelengths(map), 1e3 * dot.wavelength);
+  return speed && wavelength ? &map.at(*speed, *wavelength) : nullptr;
 }
 
 /// Largest F_N over static against speed and wavelength.
@@ -89,8 +113,8 @@ Heatmap response_heatmap(const MultibodyOutcome& o) {
   heat.x_label = "Speed [km/h]";
   heat.y_label = "Wavelength [mm]";
   heat.value_label = "max F_N / static";
-  for (const double v : map.axes.speed.values) heat.x.push_back(3.6 * v);
-  for (const double w : map.axes.wavelength.values) heat.y.push_back(1e3 * w);
+  heat.x = shown_speeds(map);
+  heat.y = shown_wavelengths(map);
   for (std::size_t j = 0; j < heat.y.size(); ++j)
     for (std::size_t i = 0; i < heat.x.size(); ++i) {
       heat.values.push_back(map.at(i, j).max);
@@ -110,13 +134,15 @@ Heatmap response_heatmap(const MultibodyOutcome& o) {
     heat.lines.push_back(std::move(line));
   }
   for (const MapDot& dot : o.dots)
-    heat.dots.push_back({3.6 * dot.speed, 1e3 * dot.wavelength, dot.max, readable(dot.max, 3)});
+    if (point_there(map, dot))
+      heat.dots.push_back({3.6 * dot.speed, 1e3 * dot.wavelength, dot.max, readable(dot.max, 3)});
   heat.caption = fmt::format(
-      "{} passages over the corrugation's first {} mm, less half a wave at each end; {} beam. Dashed: one "
-      "passing frequency v / L.{}{}",
+      "{} passages over the waves that {} mm hold, less half a wave at each end where there are several; {} "
+      "beam. Dashed: one passing frequency v / L.{}{}",
       map.points.size(), readable(1e3 * o.model.scene.corrugation->length), name_of(o.model.theory),
       lost ? "" : " Contact is lost nowhere.",
-      o.dots.empty() ? "" : " Dots: transient runs, in the colour of their own value, which stands beside.");
+      heat.dots.empty() ? ""
+                        : " Dots: transient runs, in the colour of their own value, which stands beside.");
   return heat;
 }
 
@@ -130,8 +156,7 @@ Chapter passage_chapter(const MultibodyOutcome& o) {
              curve("rail under the wheel", r.samples, &MultibodySample::rail, 1e3, Stroke::dashed)},
             {}, 200));
   chapter.blocks.emplace_back(std::move(motion));
-  Figure far = over_the_way("way", "Vertical force over the whole way", o.model,
-                            {r.samples.front().x, r.samples.back().x});
+  Figure far = over_the_way("way", "Vertical force over the whole way", o.model, whole_way(o));
   far.panels.push_back(
       panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 180));
   chapter.blocks.emplace_back(std::move(far));
@@ -169,8 +194,8 @@ Chapter calibration_chapter(const MultibodyOutcome& o) {
   search.name = "calibration-search";
   search.title = "Difference from the run against the spring";
   search.x_label = "C / Hertz";
-  search.panels.push_back(panel("Root mean square [kN]",
-                                {{"difference", c.factors, kilonewtons(c.misfits), Stroke::solid}}, {}, 150));
+  search.panels.push_back(panel(
+      "Root mean square [kN]", {{"difference", c.factors, scaled(c.misfits, 1e-3), Stroke::solid}}, {}, 150));
   chapter.blocks.emplace_back(std::move(search));
   return chapter;
 }
@@ -186,12 +211,12 @@ Chapter map_chapter(const MultibodyOutcome& o) {
                {"Map there", Align::right},
                {"Remark"}},
               {}};
-  const ResponseMap& map = *o.map;
   for (const MapDot& dot : o.dots) {
-    const MapPoint& point = map.at(nearest(map.axes.speed.values, dot.speed),
-                                   nearest(map.axes.wavelength.values, dot.wavelength));
+    const MapPoint* point = point_there(*o.map, dot);
+    std::string remark = point ? dot.remark : "outside the map";
+    if (!point && !dot.remark.empty()) remark += "; " + dot.remark;
     table.rows.push_back({dot.label, readable(3.6 * dot.speed), readable(1e3 * dot.wavelength),
-                          readable(dot.max, 3), readable(point.max, 3), dot.remark});
+                          readable(dot.max, 3), point ? readable(point->max, 3) : "-", std::move(remark)});
   }
   chapter.blocks.emplace_back(std::move(table));
   return chapter;
@@ -250,6 +275,10 @@ Report multibody_report(const MultibodyOutcome& o, const std::string& scene, con
                                         {"Way without contact", readable(100 * r.loss_of_contact, 3), "%"},
                                         {"Computing time", duration_text(o.seconds), ""}});
   result.blocks.emplace_back(multibody_table(o));
+  if (const std::vector<std::string> warnings = warnings_of(o); !warnings.empty()) {
+    report.chapters.push_back({"Warnings", {}});
+    for (const std::string& warning : warnings) report.chapters.back().blocks.emplace_back(Text{warning});
+  }
   report.chapters.push_back(std::move(result));
   report.chapters.push_back(passage_chapter(o));
   if (o.calibration) report.chapters.push_back(calibration_chapter(o));

@@ -24,6 +24,9 @@ struct MultibodyOutcome {
 /// The passage in a few rows.
 Table multibody_table(const MultibodyOutcome& outcome);
 
+/// Warnings of the passage and the map.
+std::vector<std::string> warnings_of(const MultibodyOutcome& outcome);
+
 /// The fit in a few rows.
 Table calibration_table(const Calibration& calibration, const MultibodyModel& model);
 

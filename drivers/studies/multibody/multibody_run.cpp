@@ -93,6 +93,25 @@ void evaluate(const MultibodyModel& model, MultibodyResult& r) {
   }
 }
 
+/// Sentences on waves that pass faster than the modes vibrate and on forces beyond the pressed half-spaces'.
+std::vector<std::string> range_warnings(const MultibodyModel& model, const MultibodyStep& step,
+                                        double largest_force) {
+  std::vector<std::string> warnings;
+  const TopOfModes top = top_of_modes(model, step.modes);
+  const double wave = shortest_wave(model.scene);
+  if (model.speed / wave > top.frequency)
+    warnings.push_back(fmt::format(
+        "the shortest wave or surface, {:.3g} mm, passes at {:.0f} Hz, and the modes of {} end at {:.0f} Hz; "
+        "state {}",
+        1e3 * wave, model.speed / wave, top.part, top.frequency, top.way_out));
+  if (model.beyond_half_spaces(largest_force))
+    warnings.push_back(
+        fmt::format("F_N reaches {:.1f} kN, and --contact half-space presses up to {:.1f} kN and goes on "
+                    "straight; state a smaller depth or --contact hertz",
+                    1e-3 * largest_force, 1e-3 * model.sine.most()));
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
@@ -144,6 +163,7 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
           {passage.time(), x, passage.force(), passage.wheel(), passage.rail(), passage.sprung(), roughness});
   });
   evaluate(model, r);
+  r.warnings = range_warnings(model, step, r.force.max);
   return r;
 }
 

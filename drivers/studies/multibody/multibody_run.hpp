@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/math/statistics.hpp"
@@ -18,7 +19,7 @@ struct MultibodySample {
   double wheel = 0;      ///< deflection of the wheel, downwards [m]
   double rail = 0;       ///< deflection under the wheel [m]
   double sprung = 0;     ///< deflection of the sprung mass [m]
-  double roughness = 0;  ///< depth of the corrugation under the wheel [m]
+  double roughness = 0;  ///< depth that the wheel follows [m]
 };
 
 /// Largest F_N about a crest of the corrugation.
@@ -46,7 +47,8 @@ struct MultibodyResult {
   /// Half the range of F_N over the last fastening span before the corrugation [N]; absent where the wheel
   /// starts within that span or surfaces lift or lower it there.
   std::optional<double> passing;
-  std::vector<CrestPeak> peaks;  ///< peaks of a sine's crests between its first and its last
+  std::vector<CrestPeak> peaks;       ///< peaks of a sine's crests between its first and its last
+  std::vector<std::string> warnings;  ///< sentences on waves and forces beyond the model's range
 };
 
 /// Runs a passage. Throws InputError if a stated step is far beyond any stable one, and NumericalError if the

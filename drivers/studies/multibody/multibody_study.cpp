@@ -107,6 +107,7 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
     progress.say(
         fmt::format("[map] {} passages, {}", outcome.map->points.size(), duration_text(progress.seconds())));
   }
+  for (const std::string& warning : warnings_of(outcome)) progress.say("[warning] " + warning);
   outcome.seconds = progress.seconds();
   if (!options.output.empty()) {
     make_directory(options.output);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "drivers/results/statistics_json.hpp"
 #include "drivers/studies/multibody/multibody_report.hpp"
 #include "io/report/markup.hpp"
 #include "io/text/json.hpp"
@@ -14,10 +15,6 @@
 namespace tread {
 
 namespace {
-
-Json statistics_json(const Statistics& s) {
-  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
-}
 
 Json fit_json(const CurveFit& fit) {
   return {{"vertical_force_N", statistics_json(fit.force)},
@@ -95,6 +92,12 @@ Table multibody_table(const MultibodyOutcome& o) {
   return table;
 }
 
+std::vector<std::string> warnings_of(const MultibodyOutcome& o) {
+  std::vector<std::string> warnings = o.result.warnings;
+  if (o.map) warnings.insert(warnings.end(), o.map->warnings.begin(), o.map->warnings.end());
+  return warnings;
+}
+
 Table calibration_table(const Calibration& c, const MultibodyModel& model) {
   Table table{"",
               {{"F_N over the stretch"},
@@ -150,6 +153,7 @@ std::string multibody_json(const MultibodyOutcome& o) {
                               {"peak_x_m", p.peak},
                               {"peak_N", p.force},
                               {"shift_before_crest_rad", p.shift}});
+  json["warnings"] = warnings_of(o);
   if (o.calibration) json["calibration"] = calibration_json(o);
   if (o.map) json["map"] = map_json(o);
   return json_text(json);
@@ -159,7 +163,7 @@ std::string passage_csv(const MultibodyModel& model, const MultibodyResult& resu
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text),
                  "time [s],wheel_x [m],vertical_force [N],wheel_deflection [m],rail_deflection [m],"
-                 "sprung_deflection [m],corrugation_depth [m]\n");
+                 "sprung_deflection [m],followed_depth [m]\n");
   const double interval = model.scene.output.history_interval;
   const auto every = static_cast<std::size_t>(std::max(1.0, std::round(interval / result.dt)));
   for (std::size_t i = 0; i < result.samples.size(); i += every) {

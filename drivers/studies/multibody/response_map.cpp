@@ -89,6 +89,30 @@ std::string sine_difference(const MultibodyModel& map, const MultibodyModel& run
   return "";
 }
 
+/// Sentences on cells whose waves pass faster than the modes vibrate or whose F_N exceeds the pressed
+/// half-spaces'.
+std::vector<std::string> map_warnings(const ResponseMap& map, const MultibodyModel& model,
+                                      const MultibodyStep& step) {
+  const TopOfModes top = top_of_modes(model, step.modes);
+  std::size_t fast = 0, strong = 0;
+  for (std::size_t i = 0; i < map.axes.speed.values.size(); ++i)
+    for (std::size_t j = 0; j < map.axes.wavelength.values.size(); ++j) {
+      fast += map.axes.speed.values[i] / map.axes.wavelength.values[j] > top.frequency;
+      strong += model.beyond_half_spaces(map.at(i, j).max * model.vehicle.load());
+    }
+  std::vector<std::string> warnings;
+  if (fast > 0)
+    warnings.push_back(fmt::format(
+        "in {} of {} cells of the map waves pass above {:.0f} Hz, where the modes of {} end; state {}", fast,
+        map.points.size(), top.frequency, top.part, top.way_out));
+  if (strong > 0)
+    warnings.push_back(
+        fmt::format("in {} of {} cells of the map F_N exceeds {:.1f} kN, up to which --contact half-space "
+                    "presses; state a smaller depth or --contact hertz",
+                    strong, map.points.size(), 1e-3 * model.sine.most()));
+  return warnings;
+}
+
 }  // namespace
 
 MapAxes parse_map_axes(const std::vector<std::string>& texts) {
@@ -133,7 +157,7 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
     if (!m.sine.empty()) use_half_space_contact(m);
   });
 
-  ResponseMap map{axes, std::vector<MapPoint>(speeds.size() * waves.size()), 0, 0};
+  ResponseMap map{axes, std::vector<MapPoint>(speeds.size() * waves.size()), 0, 0, {}};
   const auto dt = [&](double speed) { return step.step.value_or(chosen_step(track, models.front(), speed)); };
   map.dt_first = dt(speeds.front());
   map.dt_last = dt(speeds.back());
@@ -154,6 +178,7 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
                                           static_cast<double>(extremes.lost) / extremes.steps};
     }
   });
+  map.warnings = map_warnings(map, model, step);
   return map;
 }
 

@@ -32,8 +32,9 @@ struct MapPoint {
 
 struct ResponseMap {
   MapAxes axes;
-  std::vector<MapPoint> points;      ///< points speed by speed, wavelengths running fastest
-  double dt_first = 0, dt_last = 0;  ///< steps at the lowest and the highest speed [s]
+  std::vector<MapPoint> points;       ///< points speed by speed, wavelengths running fastest
+  double dt_first = 0, dt_last = 0;   ///< steps at the lowest and the highest speed [s]
+  std::vector<std::string> warnings;  ///< sentences on cells beyond the model's range
 
   const MapPoint& at(std::size_t speed, std::size_t wavelength) const {
     return points[speed * axes.wavelength.values.size() + wavelength];

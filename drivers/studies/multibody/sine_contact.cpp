@@ -45,7 +45,7 @@ std::pair<double, double> ContactRelief::value(double s) const {
   return {first + (s - i * pitch) * slope, slope};
 }
 
-SineContact::SineContact(const SineUnderWheel& sine, const ElasticPair& pair, double most) {
+SineContact::SineContact(const SineUnderWheel& sine, const ElasticPair& pair, double most) : most_(most) {
   using namespace half_space;
   const double pitch = std::pow(most, 2.0 / 3) / (ContactRelief::kLoads - 1);
   const Gap smooth = quadratic_gap(sine.radius, sine.radius_y);

@@ -49,11 +49,13 @@ class SineContact {
   SineContact(const SineUnderWheel& sine, const ElasticPair& pair, double most);
 
   bool empty() const { return harmonic_.empty(); }
+  double most() const { return most_; }  ///< largest force of the presses [N]
   /// Relief at a phase beyond a crest [rad]; `share` of it [-].
   ContactRelief at(double phase, double share) const;
 
  private:
   std::vector<ContactRelief> harmonic_;  ///< coefficients of cos(m phase)
+  double most_ = 0;
 };
 
 }  // namespace tread
