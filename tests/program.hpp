@@ -49,7 +49,12 @@ inline int wait_for(pid_t process) {
 inline pid_t child(const std::function<void()>& action) {
   const pid_t process = ::fork();
   if (process != 0) return process;
-  action();
+  try {  // else it would go on with the tests of its parent
+    action();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    ::_exit(99);
+  }
   ::_exit(0);
 }
 
@@ -62,6 +67,7 @@ inline std::string scene_word(const std::string& name) {
 /// that the shell runs first. `launcher`: words before the program.
 inline pid_t start_program(const std::string& arguments, const std::filesystem::path& folder,
                            const std::string& before = "", const std::string& launcher = "") {
+  for (const char* name : {"out", "errors"}) std::ofstream(folder / name);  // nothing of a call before
   const std::string command =
       fmt::format("{} exec {} {} {} >{} 2>{}", before, launcher, shell_word(TREAD_EXECUTABLE), arguments,
                   shell_word(folder / "out"), shell_word(folder / "errors"));

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/state_list.hpp"
 
@@ -18,6 +20,15 @@ inline std::string bytes(const StateList::Field& field) {
         return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
       },
       field.values);
+}
+
+/// Names and bytes of a state's fields. A model holds the contact's state of all runs that it makes.
+using StateBytes = std::vector<std::pair<std::string, std::string>>;
+
+inline StateBytes bytes(const StateList& state) {
+  StateBytes copies;
+  for (const StateList::Field& field : state.fields()) copies.emplace_back(field.name, bytes(field));
+  return copies;
 }
 
 /// Copies the values of a state to one with the same fields.
@@ -39,11 +50,15 @@ inline void copy(const StateList& from, const StateList& to) {
 }
 
 /// Names of the fields that differ in a bit.
-inline std::string differences(const StateList& a, const StateList& b) {
-  std::string names;
-  for (std::size_t i = 0; i < a.fields().size(); ++i)
-    if (bytes(a.fields()[i]) != bytes(b.fields()[i])) names += a.fields()[i].name + " ";
+inline std::string differences(const StateBytes& a, const StateBytes& b) {
+  std::string names = a.size() == b.size() ? "" : "number of fields ";
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (i >= b.size() || a[i] != b[i]) names += a[i].first + " ";
   return names;
+}
+
+inline std::string differences(const StateList& a, const StateList& b) {
+  return differences(bytes(a), bytes(b));
 }
 
 }  // namespace tread::samples

@@ -48,6 +48,7 @@ wheel_load = "60 kN"
 [vehicle]
 present = false
 [motion]
+speed = "360 km/h"
 duration = "1.5 ms"
 )";
 
@@ -58,6 +59,7 @@ length = "1.4 m"
 count = 2
 first = "0.35 m"
 [motion]
+speed = "100 km/h"
 duration = "0.1 ms"
 )";
 
@@ -97,7 +99,6 @@ Scene scene_of(const std::string& bodies, std::vector<std::string> overrides, bo
                                            "contact.friction_file=friction.txt",
                                            "output.fastening_forces=true",
                                            "output.stress_depth=20 mm",
-                                           "motion.speed=360 km/h",
                                            "motion.traction.mu=0.1",
                                            "motion.traction.ramp=0.1 ms"};
   overrides.insert(overrides.end(), places.begin(), places.end());

@@ -21,11 +21,6 @@ TEST(FreeWheel, RingHasTheModesOfElasticity) {
   expect_bounds_hold("ring_modes", {{"element_size", "12 mm"}, {"thickness", "80 mm"}});
 }
 
-TEST(FreeWheel, WheelsetKeepsItsModesUnderRefinement) {
-  expect_bounds_hold("wheelset_modes",
-                     {{"element_size", "6.5 mm"}, {"coarse_element_size", "8.5 mm"}, {"modes", "8"}});
-}
-
 TEST(FreeWheel, ThickRingTheoryEndsInTheThinRing) {
   for (const int waves : {2, 3, 5}) {
     const PlaneRing thin{0.43 - 0.002, 0.43, 205.9e9, 0.3, 7790};
