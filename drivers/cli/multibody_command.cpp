@@ -30,7 +30,10 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
       .add_option("--contact", options.contact,
                   "hertz (default): a spring, or half-space: a patch pressed on the sine")
       ->check(CLI::IsMember({"hertz", "half-space"}));
-  command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
+  command
+      .add_option(
+          "--modes", options.modes,
+          "bending modes of the rail (default: all below 20 kHz, with a foot that is held along x 30 kHz)")
       ->check(CLI::Range(2, 3000));
   command.add_option("--step", options.step,
                      "time step, e.g. \"5 us\" (default: half the stable one, at most a fortieth of the "

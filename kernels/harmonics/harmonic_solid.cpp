@@ -359,7 +359,9 @@ std::vector<HarmonicModes> HarmonicSolid::modes(const std::vector<int>& waves, c
       for (Eigen::Index k = found.decay.size(); k-- > 0;) {
         HarmonicMode mode;
         mode.stiffness = 1 / found.decay[k] - kHarmonicShift;
-        if (!mode.rigid()) mode.flexibility = found.weight[k] / (1 - kHarmonicShift * found.decay[k]);
+        // Waves of a bar bend, however slowly.
+        mode.rigid = mode.stiffness < 10 && (length_ == 0 || waves[i] == 0);
+        if (!mode.rigid) mode.flexibility = found.weight[k] / (1 - kHarmonicShift * found.decay[k]);
         flexibility += mode.flexibility;
         if (!first) continue;
         const auto shape = found.shapes.col(k);

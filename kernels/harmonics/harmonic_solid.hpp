@@ -54,8 +54,7 @@ struct HarmonicMode {
   std::vector<double> amplitude;  ///< motion that each load works on [kg^-1/2]
   double flexibility = 0;         ///< part in the first load's; 0 of a rigid motion [m/N]
   double turning = 0;  ///< coupling of the cosine wave to the sine wave by the spin, u_s . du_c / d angle [-]
-
-  bool rigid() const { return stiffness < 10; }
+  bool rigid = false;  ///< moves without strain
 };
 
 struct HarmonicModes {

@@ -363,6 +363,16 @@ TEST(Multibody, StepIsAtMostAFortiethOfTheShortestWavesPassing) {
   expect_wave(20 * 0.0015);
 }
 
+TEST(Multibody, AllThatIsEvaluatedIsSampled) {
+  const MultibodyModel model = multibody_model(
+      scene(300, std::string(kCorrugationD) + "start = \"-5.2 m\"\nlength = \"0.6 m\"\n[solution_zone]\n"
+                                              "start = \"-5.3 m\"\nlength = \"0.8 m\"\n"),
+      BeamTheory::euler);
+  const MultibodyResult r = run_multibody(model, {20, 20e-6});
+  EXPECT_LT(r.samples.front().x, r.evaluated_first + 2 * model.speed * r.dt);
+  EXPECT_GT(r.force.max, 1.2 * model.vehicle.load());
+}
+
 TEST(Multibody, StartsInTheFirstSpanBeyondTheRailsEnd) {
   Scene dense = scene(300, kCorrugationD);
   const auto start = [&] { return multibody_model(dense, BeamTheory::euler).start + dense.rail->origin; };

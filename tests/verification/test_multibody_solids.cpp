@@ -171,16 +171,27 @@ TEST(ModalWheel, HardlyDependsOnRegionAndMesh) {
   expect_hardly_depends("flexibility of the wheel above 1.9 kHz beyond a half-space", 6e-3, flexibility);
 }
 
-TEST(SolidRail, HasTheWavesOfTheBeamWhereTheyAreLong) {
-  const Scene usual = scene("");
-  const MultibodyModel model = multibody_model(usual, BeamTheory::timoshenko);
-  const ModalBeam rail = solid_rail(usual, {0, 0.02}, 2000, 8e-3);
+/// Waves of a solid rail with modes below `top` [Hz], the longest first, up to a wave number [1/m].
+void expect_waves_of_the_beam(const Scene& of, double top, double element, double longest) {
+  const BeamProperties beam = multibody_model(of, BeamTheory::timoshenko).rail;
+  const ModalBeam rail = solid_rail(of, {0, 0.02}, top, element);
   // The first family is the bending; the rigid motion comes before.
-  for (int n = 1; n * std::numbers::pi / usual.rail->length < 6; ++n) {
-    const double k = n * std::numbers::pi / usual.rail->length;
+  for (int n = 1; n * std::numbers::pi / of.rail->length < longest; ++n) {
+    const double k = n * std::numbers::pi / of.rail->length;
     const double found = rail.omega()[static_cast<std::size_t>(n)] / (2 * std::numbers::pi);
-    EXPECT_NEAR(found / wave_frequency(model.rail, k), 1, 0.015) << n;
+    EXPECT_NEAR(found / wave_frequency(beam, k), 1, 0.015) << n;
   }
+}
+
+TEST(SolidRail, HasTheWavesOfTheBeamWhereTheyAreLong) {
+  expect_waves_of_the_beam(scene(""), 2000, 8e-3, 6);
+}
+
+/// The longest wave of 60 m bends once in four seconds.
+TEST(SolidRail, HasTheLongestWavesOfALongRail) {
+  Scene of = scene("");
+  of.rail->length = 60;
+  expect_waves_of_the_beam(of, 60, 12e-3, 0.5);
 }
 
 TEST(SolidRail, HardlyDependsOnRegionAndMesh) {

@@ -23,7 +23,8 @@ ModalBeam::ModalBeam(const BeamProperties& properties, double left, double lengt
   // Each harmonic counts with half its peak, the mean over the beam. The omitted harmonics add less than a
   // thousandth of a contact's flexibility.
   constexpr int kHarmonics = 10000;
-  const int harmonics = std::max(modes, kHarmonics);
+  constexpr double kOfAMetre = 650;
+  const int harmonics = std::max({modes, kHarmonics, static_cast<int>(kOfAMetre * length)});
   for (int n = 1; n < harmonics; ++n) {
     const double k = wave_number(n);
     const double bent = 1 / (p.bending_stiffness * k * k * k * k);

@@ -31,6 +31,7 @@ ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, 
     waves_[2 * k].z = mode.amplitude * vehicle.load() / (mode.omega * mode.omega);
     wheel_.z += mode.amplitude * waves_[2 * k].z;
   }
+  rest_ = wheel_.z;
   sprung_.z = wheel_.z + vehicle.static_stretch();
   accelerate(x, 0, {});
 }
@@ -55,7 +56,7 @@ void ModalPassage::step(double x, double roughness, const ContactRelief& relief)
   for (Mass& wave : waves_) wave.move(dt_, blend);
   time_ += dt_;
   accelerate(x, roughness, relief);
-  if (!std::isfinite(force_) || std::abs(wheel_.z) > 1)
+  if (!std::isfinite(force_) || !(std::abs(wheel_.z - rest_) <= 1))
     throw NumericalError(
         fmt::format("the multi-body model became unstable at x = {:.4f} m with a step of {:.3e} s; state a "
                     "smaller one with --step, or fewer modes",

@@ -46,6 +46,7 @@ class ModalPassage {
   std::vector<double> state_, rate_, acceleration_, before_;  ///< by coordinate; before_: of the last step
   std::vector<double> shape_, scratch_;
   Mass wheel_, sprung_;
+  double rest_ = 0;  ///< deflection of the wheel at the start [m]
   ModalWheel modal_wheel_;
   std::vector<Mass> waves_;  ///< a wave and its companion for each mode, upwards [m sqrt(kg)]
   bool first_ = true;

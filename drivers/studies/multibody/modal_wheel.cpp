@@ -53,7 +53,7 @@ ModalWheel modal_wheel(const Scene& scene, const ForceRegion& region, double top
     flexibility.push_back(harmonics[i].flexibility.front());
     for (const HarmonicMode& mode : harmonics[i].modes) {
       const double amplitude = share(some[i]) * mode.amplitude.front();
-      if (mode.rigid()) {
+      if (mode.rigid) {
         wheel.mass = 1 / (amplitude * amplitude);
       } else if (mode.stiffness < highest * highest) {
         wheel.modes.push_back({some[i], std::sqrt(mode.stiffness), amplitude, mode.turning});

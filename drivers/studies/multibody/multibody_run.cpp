@@ -67,9 +67,9 @@ std::optional<double> passing_half_range(const MultibodyModel& model,
 
 /// Place from which a passage is sampled [m].
 double sampled_from(const MultibodyModel& model) {
-  const double start = std::min(0.0, model.scene.start_x());
+  const double evaluated = evaluated_stretch(model.scene, model.corrugation).first;
   const std::optional<Span> span = passing_span(model);
-  return span ? std::min(start, span->first) : start;
+  return std::min({0.0, model.scene.start_x(), evaluated, span ? span->first : evaluated});
 }
 
 void evaluate(const MultibodyModel& model, MultibodyResult& r) {
@@ -93,7 +93,17 @@ void evaluate(const MultibodyModel& model, MultibodyResult& r) {
   }
 }
 
-/// Sentences on waves that pass faster than the modes vibrate and on forces beyond the pressed half-spaces'.
+/// Returns true if a beam stands for a head of another material than its own.
+bool lacks_head(const MultibodyModel& model) {
+  const Material& head = model.scene.head_material();
+  const Material& beam = model.scene.rail_material();
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 0.01 * b; };
+  return !model.solid &&
+         (differ(head.youngs_modulus, beam.youngs_modulus) || differ(head.density, beam.density));
+}
+
+/// Sentences on waves that pass faster than the modes vibrate, on forces beyond the pressed half-spaces', and
+/// on a head that the beam lacks.
 std::vector<std::string> range_warnings(const MultibodyModel& model, const MultibodyStep& step,
                                         double largest_force) {
   std::vector<std::string> warnings;
@@ -109,6 +119,10 @@ std::vector<std::string> range_warnings(const MultibodyModel& model, const Multi
         fmt::format("F_N reaches {:.1f} kN, and --contact half-space presses up to {:.1f} kN and goes on "
                     "straight; state a smaller depth or --contact hertz",
                     1e-3 * largest_force, 1e-3 * model.sine.most()));
+  if (lacks_head(model))
+    warnings.emplace_back(
+        "the beam is of rail.material alone, and rail.head_material has another Young's modulus or density; "
+        "state --beam solid");
   return warnings;
 }
 

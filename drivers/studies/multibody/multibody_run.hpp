@@ -31,12 +31,12 @@ struct CrestPeak {
 };
 
 struct MultibodyStep {
-  std::optional<int> modes;    ///< number of modes; absent: all below 20 kHz
+  std::optional<int> modes;    ///< number of modes; absent: those of modal_track()
   std::optional<double> step;  ///< step [s]; absent: half the stable step, at most 1/40 of a wave's passing
 };
 
 struct MultibodyResult {
-  std::vector<MultibodySample> samples;  ///< samples of every step from x = 0 or `passing`'s span on
+  std::vector<MultibodySample> samples;  ///< samples of every step over all that is evaluated
   double dt = 0;                         ///< [s]
   int modes = 0;
   std::int64_t steps = 0;

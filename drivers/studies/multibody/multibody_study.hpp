@@ -16,7 +16,7 @@ struct MultibodyOptions {
   std::string beam = "euler";               ///< "timoshenko", "spread" or "solid"
   std::string wheel = "rigid";              ///< "modal"
   std::string contact = "hertz";            ///< "half-space"
-  std::optional<int> modes;                 ///< absent: all below 20 kHz
+  std::optional<int> modes;                 ///< absent: those of modal_track()
   std::string step;                         ///< "5 us"; empty: chosen
   bool filter = false;                      ///< the corrugation as deep as the contact filter leaves it
   std::filesystem::path calibrate;          ///< directory of a transient run; empty: none

@@ -28,7 +28,7 @@ HarmonicSolid upright(const Scene& scene, double element) {
   const double length = scene.rail->length;
   if (scene.rail->profile == "box") return {{{box_rail_section(fine, sizes), material}}, {}, length};
   const RailSections sections = rail_sections(fine, sizes);
-  return {{{sections.cap, material}, {sections.base, material}}, {{0, "tie", 1, "tie"}}, length};
+  return {{{sections.cap, scene.head_material()}, {sections.base, material}}, {{0, "tie", 1, "tie"}}, length};
 }
 
 /// Harmonics of the rail: each of the first, which have modes in the band, and some beyond.
@@ -76,7 +76,7 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
   ModalBeam::Modes out;
   out.residual = sum_of_harmonics(rail.some, rail.flexibilities(kHead),
                                   [&](int n) { return mean(n) * std::pow(share_of(region, n), 2); }) -
-                 half_space_flexibility(region, scene.rail_material());
+                 half_space_flexibility(region, scene.head_material());
   out.foot_residual = rail.flexibilities(kFootAlong);
   out.foot_residual.resize(static_cast<std::size_t>(rail.dense) + 1);
   out.foot_residual[0] = 0;
@@ -87,7 +87,7 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
   const double highest = 2 * std::numbers::pi * top;
   out.modes.push_back({0, 0, rigid, rigid, 0});
   const auto counts = [&](const HarmonicMode& mode) {
-    return !mode.rigid() && mode.stiffness < highest * highest &&
+    return !mode.rigid && mode.stiffness > 0 && mode.stiffness < highest * highest &&
            std::max(std::abs(mode.amplitude[kHead]), std::abs(mode.amplitude[kFoot])) > kLeastMotion * rigid;
   };
   // By families, along which the harmonics follow one another.
