@@ -35,7 +35,8 @@ def row(folder):
     if missing:
         sys.exit(f"{folder}: conclusions {missing} are not decided: run the set to its end first")
     by_wave_n, by_wave_l, by_wave_m, by_speed_n, by_speed_m = lists(conclusions[5][1])
-    (transient, least), (multibody, _) = re.findall(r"([\d.]+) and ([\d.]+)", conclusions[6][1])
+    transient, lost, multibody, lost_by_multibody = re.search(
+        r"F_N ([\d.]+) kN, without contact over (\d+) mm .* ([\d.]+) kN and (\d+) mm", conclusions[6][1]).groups()
     ours = lambda quantity, scale=1.0: float(numbers[quantity]) * scale
     held = [str(n) for n, (verdict, _) in sorted(conclusions.items()) if verdict == "reproduced"]
     partly = [str(n) for n, (verdict, _) in sorted(conclusions.items()) if verdict == "partly"]
@@ -47,7 +48,7 @@ def row(folder):
         " / ".join(f"{ours(f'Range of the frictional work, {wave} mm', 1e3):.0f}" for wave in WAVELENGTHS),
         " / ".join(f"{ours(f'Shift of F_N at the first crest, {speed} km/h'):.2f}" for speed in (100, 500)),
         f"{ours('Oscillation of F_N behind B at 500 km/h'):.1f}",
-        f"{float(transient):.0f} / {least} ({float(multibody):.0f})",
+        f"{float(transient):.0f} / {lost} ({float(multibody):.0f} / {lost_by_multibody})",
         ", ".join(held) + (f" (partly {', '.join(partly)})" if partly else ""),
     ]
 
@@ -56,7 +57,7 @@ if len(sys.argv) < 2:
     sys.exit(__doc__)
 print("| | F_N, max / min [kN] | worst wavelength by F_N/F_L/Von Mises [mm] | worst speed by F_N/Von Mises [km/h] "
       "| work, range, 65 / 80 / 95 mm [mJ] | shift, 100 / 500 km/h [pi] | smooth rail, 500 km/h [% of static] "
-      "| 500 km/h, 0.18 mm: F_N, max / min (multi-body) [kN] | conclusions |")
+      "| 500 km/h, 0.18 mm: largest F_N [kN] / way without contact [mm] (multi-body) | conclusions |")
 print("|---|---|---|---|---|---|---|---|---|")
 for name in sys.argv[1:]:
     print("| " + " | ".join(row(pathlib.Path(name))) + " |")

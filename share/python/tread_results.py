@@ -25,6 +25,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 OUT, STICKS, SLIPS = 0, 1, 2  # values of Run.patch["state"]
 _SCENE = "scene.resolved.toml"
+_TABLED = ("sweep", "dial", "paper")  # commands that leave sweep.csv
 
 
 class ResultError(Exception):
@@ -100,7 +101,7 @@ class Run:
 
     def __init__(self, folder: str | Path, partial: bool = False) -> None:
         self.folder = _existing(folder)
-        if (self.folder / "sweep.csv").is_file() or _command(self.folder) in ("sweep", "dial"):
+        if (self.folder / "sweep.csv").is_file() or _command(self.folder) in _TABLED:
             raise ResultError(f"{folder}: it holds a study; read it with Sweep('{folder}')")
         if "points" in _status(self.folder):
             raise ResultError(f"{folder}: {_other_study(self.folder)}")
@@ -239,7 +240,7 @@ class Sweep:
         path = self.folder / "sweep.csv"
         if not path.is_file():
             status = _status(self.folder)
-            if _command(self.folder) in ("sweep", "dial"):
+            if _command(self.folder) in _TABLED:
                 counts = [status.get(state, 0) for state in ("done", "failed", "interrupted", "running", "waiting")]
                 reason = (f"the study is not finished ({counts[0]} of {sum(counts)} points are done); wait or "
                           f"{_command(self.folder)} again")
@@ -344,7 +345,7 @@ def _command(folder: Path) -> str:
 
 
 def _other_study(folder: Path) -> str:
-    """Sentence on a folder of `tread develop` or `tread paper`, which leave no sweep.csv."""
+    """Sentence on a folder of `tread develop`, which leaves no sweep.csv."""
     runs = [path.name for path in sorted(folder.iterdir()) if (path / _SCENE).is_file()]
     return (f"it holds results of `tread {_command(folder)}`, which are no table of points; read its files, or a "
             f"run in it with Run('{folder / runs[-1] if runs else folder / 'RUN'}')")

@@ -264,6 +264,9 @@ class Studies(Test):
             self.refuses(lambda reader=reader: reader(place), place, "results of `tread develop`", "Run('")
         (place / "status.json").write_text('{"command": "sweep", "done": 2, "waiting": 3, "points": []}')
         self.refuses(lambda: Sweep(place), "2 of 5 points are done", "sweep again")
+        (place / "status.json").write_text('{"command": "paper", "done": 2, "waiting": 3, "points": []}')
+        self.refuses(lambda: Run(place), place, "Sweep(")
+        self.refuses(lambda: Sweep(place), "2 of 5 points are done", "paper again")
 
 
 class BrokenFolders(Test):

@@ -83,6 +83,9 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
       << errors();
   EXPECT_TRUE(has(program_.out(), "measured on \"Corrugation D, 300 km/h")) << program_.out();
   EXPECT_TRUE(has(program_.out(), "left out of the scene")) << program_.out();
+  ASSERT_EQ(call(fmt::format("check {} -t 1 --error 5% --quantity pressure --json", scene("tyre.toml"))), 0)
+      << errors();
+  EXPECT_EQ(text_in(parse_json(program_.out(), "check"), "advice.left_out.0"), "scene.element_size");
 
   // In JSON it is one list.
   ASSERT_EQ(call(tyres(axes + " --json")), 0) << errors();

@@ -106,6 +106,8 @@ TEST_F(LaunchedRanks, FilesAreThoseOfOneProcess) {
     for (const int count : counts) {
       ASSERT_EQ(call_on(count, run(folder_, "--overwrite " + of_precision(precision))), 0) << errors();
       EXPECT_TRUE(has(errors(), fmt::format("[ranks] {} ranks, threads of each: 1", count))) << errors();
+      EXPECT_TRUE(has(content_of(folder_ / "report.html"),
+                      fmt::format("of each of {} ranks; instruction set", count)));
       expect_same_run(one, folder_);
     }
   }

@@ -487,12 +487,15 @@ TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
   EXPECT_EQ(text_in(list, "points.2.name"), "95mm,0.14mm,300km_h,mu=0.3");
   EXPECT_EQ(list.count("points.3.name"), 0U);
 
-  ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 18 -o {} {}", runs_.string(), coarse)), 0)
+  ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 17a --fig 18 -o {} {}", runs_.string(), coarse)),
+            0)
       << errors();
   EXPECT_TRUE(has(errors(), "[paper] 0 of ")) << errors();
   for (const char* name : {"fig15.csv", "fig15.svg", "fig18.csv", "fig18.svg", "report.html"})
     EXPECT_TRUE(fs::exists(runs_ / name)) << name;
   EXPECT_TRUE(has(content_of(runs_ / "report.html"), "Provenance"));
+  EXPECT_FALSE(fs::exists(runs_ / "fig17a.csv"));
+  EXPECT_TRUE(has(content_of(runs_ / "report.html"), "the wheel has not rolled that far"));
   EXPECT_FALSE(fs::exists(runs_ / "figures"));  // they are the files named above
   EXPECT_TRUE(has(program_.out(), "not run: corrugation D")) << program_.out();
   const std::string numbers = content_of(runs_ / "numbers.csv");

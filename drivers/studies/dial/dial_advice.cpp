@@ -122,6 +122,7 @@ Json advice_json(const Advice& advice) {
     json["point"] = advice.row->point;
     json["error"] = error_of(*advice.row, advice.quantity).value_or(0);
     json["settings"] = advice.row->settings;
+    if (advice.hidden_quality) json["left_out"] = Json::array({"scene.element_size"});
     if (advice.cost)
       json["seconds"] = advice.cost->seconds();
     else

@@ -130,6 +130,12 @@ std::vector<double> places_of(const FinishedRun& run) {
                         pressure.y);
 }
 
+/// Returns true if the wheel has passed half of the stretch from the first of the places to the last.
+bool has_come_to(const FinishedRun& run, const std::vector<double>& places) {
+  const CurvePoints way = history_over_way(run, "max_pressure", "Pa");
+  return !way.x.empty() && way.x.back() > 0.5 * (places.front() + places.back());
+}
+
 DrawnFigure drawn_snapshots(const std::string& title, const FinishedRun& run) {
   const std::filesystem::path path = run.folder / kPatchFile;
   const PatchAxes axes = read_patch_axes(path);
@@ -161,6 +167,8 @@ DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   if (wanted.instants || !wanted.surface.empty()) {
     const FinishedRun* run = runs.find(wanted.passages.front());
     if (!run) return {Text{title + "."}, "", ""};
+    if (!has_come_to(*run, places_of(*run)))
+      return {Text{title + ": the wheel has not rolled that far."}, "", ""};
     return wanted.instants ? drawn_snapshots(title, *run) : drawn_surface(title, wanted, *run);
   }
   const Figure figure =
