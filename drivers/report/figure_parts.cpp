@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "drivers/engine/model/station_plan.hpp"
+
 namespace tread {
 
 Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker> levels, double height) {
@@ -24,21 +26,33 @@ void mark_track(const Model& model, const Range& range, Figure& figure) {
   if (model.contact) mark_track(model.scene, model.contact->corrugation(), range, figure);
 }
 
-double abscissa(const Model& model, const Sample& sample) {
-  return model.contact ? sample.wheel_x : 1e3 * sample.time;
+double signed_friction(double f, double longitudinal_force, double load) {
+  return longitudinal_force < -0.01 * f * load ? -f : f;
+}
+
+bool over_time(const Model& model) {
+  return !model.contact || stands(model.scene);
+}
+
+std::vector<double> abscissae_of(const Model& model, const RunResults& r) {
+  const bool times = over_time(model);
+  std::vector<double> all;
+  for (const Sample& sample : r.samples) all.push_back(times ? 1e3 * sample.time : sample.wheel_x);
+  return all;
 }
 
 Range whole_way(const Model& model, const RunResults& r) {
-  return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
+  const std::vector<double> all = abscissae_of(model, r);
+  return {all.front(), all.back()};
 }
 
 Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
   Figure figure;
   figure.name = std::move(name);
   figure.title = std::move(title);
-  figure.x_label = model.contact ? "Position of the wheel [m]" : "Time [ms]";
+  figure.x_label = over_time(model) ? "Time [ms]" : "Position of the wheel [m]";
   figure.x_range = whole_way(model, r);
-  if (model.contact) mark_track(model, *figure.x_range, figure);
+  if (!over_time(model)) mark_track(model, *figure.x_range, figure);
   return figure;
 }
 

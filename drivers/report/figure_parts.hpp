@@ -38,8 +38,14 @@ void add_surface_panel(const ShownSurfaces& surfaces, double height, Figure& fig
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);
 Range stretch_in_sight(const Model& model, const Range& way);
 
-/// Abscissa of a run's charts: the wheel's position [m], or the time in scenes without a wheel [ms].
-double abscissa(const Model& model, const Sample& sample);
+/// Friction on the side of a mean F_L [N]: f, or -f under brakes beyond a hundredth of f times the load [-].
+double signed_friction(double f, double longitudinal_force, double load);
+
+/// Returns true for a run whose charts are over time: without a rolling wheel.
+bool over_time(const Model& model);
+
+/// Abscissae of a run's charts, by sample: the wheel's position [m], or the time where over_time() [ms].
+std::vector<double> abscissae_of(const Model& model, const RunResults& results);
 
 /// Places or times of a run, first and last.
 Range whole_way(const Model& model, const RunResults& results);

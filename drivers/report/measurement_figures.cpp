@@ -23,12 +23,9 @@ double shown(const std::string& unit) {
 }
 
 Series curve(std::string label, const Model& model, const RunResults& r, std::size_t column) {
-  Series series{std::move(label), {}, {}, Stroke::solid};
+  Series series{std::move(label), abscissae_of(model, r), {}, Stroke::solid};
   const double scale = shown(r.measured.channels()[column].channel.unit);
-  for (std::size_t i = 0; i < r.samples.size(); ++i) {
-    series.x.push_back(abscissa(model, r.samples[i]));
-    series.y.push_back(scale * r.measured.row(i)[column]);
-  }
+  for (std::size_t i = 0; i < r.samples.size(); ++i) series.y.push_back(scale * r.measured.row(i)[column]);
   return series;
 }
 
@@ -74,15 +71,17 @@ std::vector<std::size_t> numbered(const MeasuredRows& measured, const char* patt
   }
 }
 
-/// Forces of the fastenings about the evaluated stretch.
+/// Forces of the fastenings about the evaluated stretch, without a wheel about the blow.
 Figure fastening_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("fastening-forces", "Forces of the fastenings on the rail", model, r);
   std::vector<Series> series;
   const double spacing = model.scene.fastenings->spacing;
+  const double blow = model.scene.hammer ? model.scene.hammer->position : 0;
+  const double first = (model.contact ? r.evaluated_first : blow) - spacing;
+  const double last = (model.contact ? r.evaluated_last : blow) + spacing;
   for (const std::size_t c : numbered(r.measured, "fastening_{:02}_force")) {
     const double x = r.measured.channels()[c].at;
-    if (x >= r.evaluated_first - spacing && x <= r.evaluated_last + spacing)
-      series.push_back(curve(fmt::format("x = {:.3f} m", x), model, r, c));
+    if (x >= first && x <= last) series.push_back(curve(fmt::format("x = {:.3f} m", x), model, r, c));
   }
   figure.panels.push_back(panel("Force upwards [kN]", std::move(series), {}, 240));
   return figure;

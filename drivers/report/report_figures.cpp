@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/report/figure_parts.hpp"
 
 namespace tread {
@@ -17,11 +18,8 @@ using Value = std::function<double(const Sample&)>;
 
 Series curve(std::string label, const Model& model, const RunResults& r, const Value& value,
              Stroke stroke = Stroke::solid) {
-  Series series{std::move(label), {}, {}, stroke};
-  for (const Sample& sample : r.samples) {
-    series.x.push_back(abscissa(model, sample));
-    series.y.push_back(value(sample));
-  }
+  Series series{std::move(label), abscissae_of(model, r), {}, stroke};
+  for (const Sample& sample : r.samples) series.y.push_back(value(sample));
   return series;
 }
 
@@ -38,12 +36,13 @@ Layer merged(std::string label, std::vector<Layer> layers) {
 template <class View>
 std::vector<Layer> layers_of(const Model& model, const View& view) {
   const BlockIndex& index = model.index;
+  const char* below = index.slab < 0 ? "rail" : index.rail_base < 0 ? "slab" : "slab and rail";
   const std::vector<std::pair<const char*, std::vector<int>>> groups = {
       {"sleepers", index.sleepers},
-      {index.slab >= 0 ? "slab and rail" : "rail", {index.slab, index.rail_base}},
-      {index.rail_base >= 0 ? "rail head" : "rail", {index.rail_cap}},
+      {below, {index.slab, index.rail_base}},
+      {index.rail_base >= 0 || index.base_body >= 0 ? "rail head" : "rail", {index.rail_cap}},
       {index.disc >= 0 ? "disc and axle" : "axle", {index.axle, index.disc}},
-      {"tread", {index.tread}}};
+      {index.axle >= 0 ? "tread" : "tyre", {index.tread}}};
   std::vector<Layer> layers;
   for (const auto& [label, blocks] : groups) {
     std::vector<Layer> parts;
@@ -58,12 +57,23 @@ double axis_height(const Model& model) {
   return model.contact ? model.contact->touching_height() : 0;
 }
 
+/// End of the drawings' titles.
+const char* without_bodies(const Model& model) {
+  return model.mesh.bodies.empty() ? "" : ", without bodies from files";
+}
+
+double friction_of(const Model& model, const RunResults& r) {
+  return signed_friction(model.scene.contact->largest_friction(), r.longitudinal_force.mean,
+                         model.wheel_load());
+}
+
 }  // namespace
 
 Figure force_figure(const Model& model, const RunResults& r) {
   const Scene& scene = model.scene;
   const Corrugation& corrugation = model.contact->corrugation();
-  const double f = scene.contact->largest_friction();
+  const double f = friction_of(model, r);
+  const std::string limit = f < 0 ? "−f F_N" : "f F_N";
   Figure figure;
   figure.name = "forces";
   figure.title =
@@ -73,18 +83,18 @@ Figure force_figure(const Model& model, const RunResults& r) {
   mark_track(model, *figure.x_range, figure);
   figure.panels.push_back(
       panel("Force [kN]",
-            {curve("f F_N", model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
+            {curve(limit, model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
              curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
-            {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
+            {{1e-3 * f * model.wheel_load(), "static " + limit}}, 300));
   const double patch_y = r.preload.contact.centre.y;
   add_surface_panel(shown_surfaces(model, patch_y), 90, figure);
-  figure.caption += fmt::format("Where F_L meets f F_N the whole patch slides. f = {:g}", f);
+  figure.caption += fmt::format("Where F_L meets {} the whole patch slides. f = {:g}", limit, std::abs(f));
   figure.caption += scene.contact->friction_law == "coulomb" ? "." : ", the largest coefficient of friction.";
   return figure;
 }
 
 Figure passage_figure(const Model& model, const RunResults& r) {
-  const double f = model.scene.contact->largest_friction();
+  const double f = friction_of(model, r);
   Figure figure = over_the_way("passage", "Forces over the whole way", model, r);
   figure.panels.push_back(
       panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
@@ -95,7 +105,7 @@ Figure passage_figure(const Model& model, const RunResults& r) {
                                          return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force
                                                                      : 0.0;
                                        })},
-                                {{f, "f"}}, 150));
+                                {{f, f < 0 ? "−f" : "f"}}, 150));
   figure.panels.push_back(panel("Lateral [kN]",
                                 {curve("lateral force on the wheel, to the field side", model, r,
                                        [](const Sample& s) { return 1e-3 * s.lateral_force; })},
@@ -109,17 +119,19 @@ Figure passage_figure(const Model& model, const RunResults& r) {
 
 Figure creepage_figure(const Model& model, const RunResults& r, const std::vector<Marker>& levels) {
   Figure figure = over_the_way("creepage", "Longitudinal creepage", model, r);
-  figure.panels.push_back(panel("Creepage [%]",
-                                {curve("at the node that starts in the patch", model, r,
-                                       [](const Sample& s) { return 100 * s.creepage_node; }),
-                                 curve("mean of 28 nodes around the tread", model, r,
-                                       [](const Sample& s) { return 100 * s.creepage_mean; })},
-                                levels, 280));
+  const char* mean = model.guide ? "of the bore's carrier" : "mean of 28 nodes around the tread";
+  figure.panels.push_back(
+      panel("Creepage [%]",
+            {curve("at the node that starts in the patch", model, r,
+                   [](const Sample& s) { return 100 * s.creepage_node; }),
+             curve(mean, model, r, [](const Sample& s) { return 100 * s.creepage_mean; })},
+            levels, 280));
   figure.panels.push_back(
       panel("Spin [1/m]", {curve("spin creepage", model, r, [](const Sample& s) { return s.spin_creepage; })},
             {}, 90));
   figure.caption +=
-      "The single node vibrates when it enters the patch and once a turn again; the mean filters that out.";
+      fmt::format("The single node vibrates when it enters the patch and once a turn again; {}.",
+                  model.guide ? "the carrier is rigid" : "the mean filters that out");
   return figure;
 }
 
@@ -176,16 +188,18 @@ Drawings section_drawings(const Model& model) {
     const double up = block.sweep == Sweep::revolved ? height : 0;
     return section_layer(block.name, block.section, block.sweep, {0, up});
   });
+  const char* missing = without_bodies(model);
   Drawings sections{"mesh-sections", {}};
   std::vector<Drawing>& drawings = sections.drawings;
   if (!model.contact) {
-    drawings.push_back({"Cross-section", layers, std::nullopt, 300});
+    drawings.push_back({std::string("Cross-section") + missing, layers, std::nullopt, 300});
     return sections;
   }
-  drawings.push_back(
-      {"Cross-section under the wheel", layers, std::nullopt, model.index.axle >= 0 ? 920.0 : 440.0});
+  drawings.push_back({std::string("Cross-section under the wheel") + missing, layers, std::nullopt,
+                      model.index.axle >= 0 ? 920.0 : 440.0});
   if (model.index.axle >= 0)
-    drawings.push_back({"Rail and wheel rim", layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
+    drawings.push_back(
+        {std::string("Rail and wheel rim") + missing, layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
   drawings.push_back({"Around the patch", layers, Window{{-0.032, -0.022}, {0.032, 0.022}},
                       model.index.axle >= 0 ? 520.0 : 440.0});
   return sections;
@@ -201,16 +215,18 @@ Drawings side_drawings(const Model& model) {
       for (double& radius : without_flange.section.q) radius = std::min(radius, height);
     return side_layer(block.name, without_flange, {start, 0, height});
   });
-  if (!model.contact) return {"mesh-side", {{"Side view", layers, std::nullopt, 920}}};
+  const char* missing = without_bodies(model);
+  if (!model.contact) return {"mesh-side", {{std::string("Side view") + missing, layers, std::nullopt, 920}}};
   std::vector<Layer> track = layers;
-  std::erase_if(track,
-                [](const Layer& layer) { return layer.label == "tread" || layer.label == "disc and axle"; });
-  const double zone = model.scene.motion ? model.scene.zone_start : 0;
+  std::erase_if(track, [](const Layer& layer) {
+    return layer.label == "tread" || layer.label == "tyre" || layer.label.ends_with("axle");
+  });
+  const double zone = zone_span(model.scene).first;
   return {"mesh-side",
-          {{fmt::format("Side view of the stations, x = {:g} to {:g} m", start - 0.5, start + 0.5), layers,
-            Window{{start - 0.5, -0.3}, {start + 0.5, 0.5}}, 440},
-           {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
-            440}}};
+          {{fmt::format("Side view of the stations, x = {:g} to {:g} m{}", start - 0.5, start + 0.5, missing),
+            layers, Window{{start - 0.5, -0.3}, {start + 0.5, 0.5}}, 440},
+           {std::string("The rail where the solution zone begins") + missing, track,
+            Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}}, 440}}};
 }
 
 }  // namespace tread

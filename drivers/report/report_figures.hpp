@@ -7,14 +7,14 @@
 
 namespace tread {
 
-/// F_L and f F_N over the corrugation (smooth rail: over the solution zone) with the running surface below.
-/// [paper, Fig. 15]
+/// F_L and f F_N, under brakes -f F_N, over the corrugation (smooth rail: over the solution zone) with the
+/// running surface below. [paper, Fig. 15]
 Figure force_figure(const Model& model, const RunResults& results);
 
 /// Forces, traction and torque over the whole way.
 Figure passage_figure(const Model& model, const RunResults& results);
 
-/// Creepage at a node and mean of 28. [paper, Fig. 18]
+/// Creepage at a node and mean of 28, or by the spin of a guided bore's carrier. [paper, Fig. 18]
 Figure creepage_figure(const Model& model, const RunResults& results, const std::vector<Marker>& levels);
 
 /// Area, slip area, pressure, shear stress and penetration.

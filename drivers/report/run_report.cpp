@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "core/parallel/ranks.hpp"
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/energy_tables.hpp"
@@ -172,7 +175,8 @@ Chapter patch_chapter(const Run& run) {
     chapter.blocks.emplace_back(snapshots_figure(run.model, r));
     chapter.blocks.emplace_back(stick_slip_drawings(run.model, r));
     chapter.blocks.emplace_back(
-        Text{"Seen from above, rolling to the right; a cell for each surface node that touches."});
+        Text{fmt::format("Seen from above{}; a cell for each surface node that touches.",
+                         stands(run.scene()) ? "" : ", rolling to the right")});
   }
   if (!r.movie.empty()) chapter.blocks.emplace_back(patch_movie(run.model, r));
   if (run.rolled()) chapter.blocks.emplace_back(patch_figure(run.model, r));
@@ -283,12 +287,15 @@ Chapter cost_chapter(const Run& run) {
     q.add("Million element-steps per second", 1e-6 * element_steps / r.seconds_rolling, "");
     q.add("Time of an element-step", 1e9 * r.seconds_rolling / element_steps, "ns");
   }
-  q.add_text("Threads", std::to_string(threads()), "",
-             fmt::format("instruction set {}", run.model.internal->instruction_set()));
+  const std::shared_ptr<Ranks> ranks = chosen_ranks();
+  q.add_text(
+      "Threads", std::to_string(threads()), "",
+      fmt::format("{}instruction set {}", ranks ? fmt::format("of each of {} ranks; ", ranks->count()) : "",
+                  run.model.internal->instruction_set()));
   q.add_text("Device", device_name(), "", "takes the steps");
   const double seconds = run.results.seconds_preload + run.results.seconds_rolling;
   q.add_text("Peak memory", bytes_text(peak_memory()), "",
-             fmt::format("estimate: {}",
+             fmt::format("{}: {}", ranks ? "of rank 0; estimate for one process" : "estimate",
                          bytes_text(peak_bytes(run.model, seconds, file_bytes(run.resolved.source)))));
   chapter.blocks.emplace_back(q.take());
   chapter.blocks.emplace_back(phase_table(run.model));
@@ -357,7 +364,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   report.chapters.push_back(result_chapter(run));
   if (run.rolled()) {
     Chapter forces{"Forces", {}};
-    if (run.in_sight()) forces.blocks.emplace_back(force_figure(model, results));
+    if (run.in_sight() && !stands(model.scene)) forces.blocks.emplace_back(force_figure(model, results));
     forces.blocks.emplace_back(passage_figure(model, results));
     if (Figure spectrum = spectrum_figure(results); !spectrum.panels.empty())
       forces.blocks.emplace_back(std::move(spectrum));

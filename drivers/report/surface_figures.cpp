@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 
@@ -118,8 +119,9 @@ Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
 PatchMovie patch_movie(const Model& model, const RunResults& r) {
   PatchMovie movie;
   movie.name = "patch-movie";
-  const bool at_rest = r.samples.empty();
-  movie.title = at_rest ? "The patch at rest" : "The patch on its way";
+  const bool preload = r.samples.empty();
+  movie.rolls = !preload && !stands(model.scene);
+  movie.title = movie.rolls ? "The patch on its way" : "The patch at rest";
   movie.x_label = "Along the rail from the wheel's axis [mm]";
   movie.y_label = "Across the rail [mm]";
   movie.labels = {"Pressure [MPa]", "Surface shear stress [MPa]", "Slip speed [mm/s]"};
@@ -149,9 +151,10 @@ PatchMovie patch_movie(const Model& model, const RunResults& r) {
     movie.frames.push_back(std::move(frame));
   }
   movie.caption = fmt::format(
-      "Left from above{}; right the same as a relief, drag it to turn it. Averages at the rail's "
+      "Left from above{}{}; right the same as a relief, drag it to turn it. Averages at the rail's "
       "surface nodes.",
-      at_rest ? "" : ", rolling to the right: red lines part what sticks from what slips");
+      movie.rolls ? ", rolling to the right" : "",
+      preload ? "" : ": red lines part what sticks from what slips");
   return movie;
 }
 

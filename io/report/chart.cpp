@@ -21,6 +21,7 @@ constexpr double kRight = 14;
 constexpr double kTop = 18;     // space for the labels of bands and positions
 constexpr double kGap = 16;     // space between panels
 constexpr double kBottom = 46;  // space for tick labels and the label of the abscissa
+constexpr double kLine = 20;    // height of a line of the legend
 constexpr std::size_t kGroups = 1000;
 constexpr int kColours = 6;
 
@@ -89,8 +90,13 @@ Range y_range(const Panel& panel, const Range& x) {
       if (series.x[i] >= x[0] && series.x[i] <= x[1]) extent.add(series.y[i]);
   for (const Marker& level : panel.levels) extent.add(level.at);
   const Range range = extent.range();
-  const double step = tick_step(range[0], range[1], tick_count(panel.height));
-  return {std::floor(range[0] / step + 1e-9) * step, std::ceil(range[1] / step - 1e-9) * step};
+  Range whole = range;
+  double step = 0;  // a wider range may need larger steps
+  for (double next; (next = tick_step(whole[0], whole[1], tick_count(panel.height))) > step;) {
+    step = next;
+    whole = {std::floor(range[0] / step + 1e-9) * step, std::ceil(range[1] / step - 1e-9) * step};
+  }
+  return whole;
 }
 
 /// Writes tick values with the digits that their spacing needs, over a common power of ten.
@@ -259,23 +265,37 @@ std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
   return clipped(kTop, bottom, shapes) + labels;
 }
 
+/// A line of the legend.
+struct Key {
+  std::string style;
+  std::string label;
+  const char* output;  ///< element for the curve's value; empty: a level
+};
+
+/// Keys of the curves and of the levels that have labels, by panel.
+std::vector<std::vector<Key>> keys(const Figure& figure) {
+  std::vector<std::vector<Key>> all;
+  int number = 0;
+  for (const Panel& panel : figure.panels) {
+    std::vector<Key>& keys = all.emplace_back();
+    for (const Series& series : panel.series)
+      keys.push_back({curve_style(series, number++), series.label, "<output></output>"});
+    for (const Marker& level : panel.levels)
+      if (!level.label.empty()) keys.push_back({"level", level.label, ""});
+  }
+  return all;
+}
+
 /// Legend. Its first key shows the abscissa while a reader points at the chart; curves have an output for
 /// their value.
 std::string legend_html(const Figure& figure) {
-  const auto key = [](const std::string& style, const std::string& text, const char* output) {
-    return fmt::format(
-        "<span class=\"key\"><svg width=\"26\" height=\"8\"><path class=\"{}\" d=\"M0 "
-        "4H26\"/></svg>{}{}</span>\n",
-        style, html_text(text), output);
-  };
   std::string html = "<span class=\"key at\"><output></output></span>\n";
-  int number = 0;
-  for (const Panel& panel : figure.panels) {
-    for (const Series& series : panel.series)
-      html += key(curve_style(series, number++), series.label, "<output></output>");
-    for (const Marker& level : panel.levels)
-      if (!level.label.empty()) html += key("level", level.label, "");
-  }
+  for (const std::vector<Key>& panel : keys(figure))
+    for (const Key& key : panel)
+      html += fmt::format(
+          "<span class=\"key\"><svg width=\"26\" height=\"8\"><path class=\"{}\" d=\"M0 "
+          "4H26\"/></svg>{}{}</span>\n",
+          key.style, html_text(key.label), key.output);
   return "<div class=\"legend\">\n" + html + "</div>\n";
 }
 
@@ -318,6 +338,40 @@ Plot plot(const Figure& figure) {
   return {x, at.bottom, bands_svg(figure, x, at.bottom) + panels + abscissa_svg(figure, x, at.bottom)};
 }
 
+struct Legend {
+  std::string svg;
+  double bottom;  ///< [px]
+};
+
+/// Legend below y. It has as many columns as the longest label allows, and one column per panel if these
+/// suffice.
+Legend legend_svg(const Figure& figure, double y) {
+  constexpr double kLetter = 7;  ///< average width of the widest letters [px]
+  constexpr double kLead = 46;
+  const std::vector<std::vector<Key>> all = keys(figure);
+  std::size_t longest = 1;
+  for (const std::vector<Key>& panel : all)
+    for (const Key& key : panel) longest = std::max(longest, key.label.size());
+  const double room = kPageWidth - kLeft - kRight;
+  const int fit = std::max(1, static_cast<int>(room / (kLead + kLetter * static_cast<double>(longest))));
+  const bool by_panel = std::ssize(all) <= fit;
+  const int columns = by_panel ? std::max(1, static_cast<int>(all.size())) : fit;
+  Legend legend{"", y};
+  int place = 0;
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    int row = 0;
+    for (const Key& key : all[p]) {
+      const double left = kLeft + room / columns * (by_panel ? static_cast<int>(p) : place % columns);
+      const double base = y + kLine * (1 + (by_panel ? row++ : place++ / columns));
+      legend.bottom = std::max(legend.bottom, base);
+      legend.svg += fmt::format(
+          "<path class=\"{}\" d=\"M{:.0f} {:.0f}h26\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
+          key.style, left, base - 4, left + 34, base, svg_text(key.label));
+    }
+  }
+  return legend;
+}
+
 }  // namespace
 
 std::string figure_html(const Figure& figure) {
@@ -330,47 +384,7 @@ std::string figure_html(const Figure& figure) {
       drawn.x.value[1], kLeft, kPageWidth - kRight, drawn.shapes, caption_html(figure.caption));
 }
 
-namespace {
-
-struct Legend {
-  std::string svg;
-  double bottom;  ///< [px]
-};
-
-/// Legend below y. It has as many columns as the longest label allows, and one column per panel if these
-/// suffice.
-Legend legend_svg(const Figure& figure, double y) {
-  constexpr double kLine = 20;
-  constexpr double kLetter = 7;  ///< average width of the widest letters [px]
-  constexpr double kLead = 46;
-  std::size_t longest = 1;
-  for (const Panel& panel : figure.panels)
-    for (const Series& series : panel.series) longest = std::max(longest, series.label.size());
-  const double room = kPageWidth - kLeft - kRight;
-  const int fit = std::max(1, static_cast<int>(room / (kLead + kLetter * static_cast<double>(longest))));
-  const bool by_panel = static_cast<int>(figure.panels.size()) <= fit;
-  const int columns = by_panel ? std::max(1, static_cast<int>(figure.panels.size())) : fit;
-  Legend legend{"", y};
-  int number = 0;
-  for (int p = 0; p < static_cast<int>(figure.panels.size()); ++p) {
-    int row = 0;
-    for (const Series& series : figure.panels[static_cast<std::size_t>(p)].series) {
-      const int column = by_panel ? p : number % columns;
-      const double left = kLeft + room / columns * column;
-      const double base = y + kLine * (1 + (by_panel ? row++ : number / columns));
-      legend.bottom = std::max(legend.bottom, base);
-      legend.svg += fmt::format(
-          "<path class=\"{}\" d=\"M{:.0f} {:.0f}h26\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
-          curve_style(series, number++), left, base - 4, left + 34, base, svg_text(series.label));
-    }
-  }
-  return legend;
-}
-
-}  // namespace
-
 std::string figure_svg(const Figure& figure) {
-  constexpr double kLine = 20;
   const Plot drawn = plot(figure);
   std::string head = fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", kLeft,
                                  kLine, svg_text(figure.title));

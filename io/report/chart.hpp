@@ -57,7 +57,7 @@ struct Figure {
 /// A `figure` element: title, legend, SVG, caption. chart.js adds reading and zooming.
 std::string figure_html(const Figure& figure);
 
-/// The figure as a self-contained SVG file, with title, legend and caption.
+/// The figure as a self-contained SVG file, with title and legend.
 std::string figure_svg(const Figure& figure);
 
 /// About `count` values within [low, high], 1, 2 or 5 times a power of ten apart.

@@ -101,8 +101,8 @@ std::string data(const PatchMovie& movie) {
   const Rows rows = rows_in_contact(movie);
   const std::vector<double> largest = largest_values(movie);
   Json json = {{"xLabel", movie.x_label}, {"yLabel", movie.y_label}, {"labels", movie.labels},
-               {"largest", largest},      {"stops", kShadeStops},    {"y", Json::array()},
-               {"frames", Json::array()}};
+               {"rolls", movie.rolls},    {"largest", largest},      {"stops", kShadeStops},
+               {"y", Json::array()},      {"frames", Json::array()}};
   for (std::size_t i = rows.first; i < rows.last; ++i) json["y"].push_back(rounded(movie.y[i]));
   for (const MovieFrame& frame : movie.frames) {
     Json one = {{"centre", rounded(frame.centre)}, {"note", frame.note}, {"x", Json::array()}};

@@ -24,6 +24,7 @@ struct PatchMovie {
   std::vector<MovieFrame> frames;
   std::string caption;
   std::string name = {};  ///< name of its files; empty: it has none
+  bool rolls = true;      ///< true: an arrow shows the direction of rolling
 };
 
 /// A `figure` element. patch_movie.js draws it and lets the reader choose instant and field, and turn the

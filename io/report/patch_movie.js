@@ -169,16 +169,17 @@ for (const figure of document.querySelectorAll("figure.movie")) {
       relief.fill();
       relief.stroke();
     }
-    // Which way the wheel rolls.
-    const [tail, head] = [project(-half, yLow - middle - 1.5, 0), project(half, yLow - middle - 1.5, 0)];
     relief.strokeStyle = relief.fillStyle = ink;
-    relief.lineWidth = 1;
-    relief.beginPath();
-    relief.moveTo(tail[0], tail[1]);
-    relief.lineTo(head[0], head[1]);
-    relief.stroke();
-    relief.textAlign = "center";
-    relief.fillText("rolling", head[0], head[1] + 14);
+    if (movie.rolls) {
+      const [tail, head] = [project(-half, yLow - middle - 1.5, 0), project(half, yLow - middle - 1.5, 0)];
+      relief.lineWidth = 1;
+      relief.beginPath();
+      relief.moveTo(tail[0], tail[1]);
+      relief.lineTo(head[0], head[1]);
+      relief.stroke();
+      relief.textAlign = "center";
+      relief.fillText("rolling", head[0], head[1] + 14);
+    }
     relief.textAlign = "left";
     relief.fillText(movie.labels[field], 8, 16);
   };

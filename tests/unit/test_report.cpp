@@ -89,6 +89,23 @@ TEST(Chart, ValuesThatAreNotFiniteBreakTheLine) {
   EXPECT_EQ(count(html, "nan"), 0U);
 }
 
+/// Widened to whole ticks, the range needs larger steps.
+TEST(Chart, AWidenedRangeHasTicksOfOneStep) {
+  Figure figure = one_curve({0, 1}, {-0.299, 0.3});
+  figure.panels.front().height = 150;
+  const std::string html = figure_html(figure);
+  EXPECT_EQ(count(html, "class=\"tick right\""), 3U) << html;
+  EXPECT_EQ(count(html, "data-low=\"-0.5\" data-high=\"0.5\""), 1U) << html;
+}
+
+TEST(Chart, PicturesHaveKeysOfLabelledLevels) {
+  Figure figure = one_curve({0, 1}, {0, 1});
+  figure.panels.front().levels = {{0.5, "static"}, {0.7, ""}};
+  const std::string svg = figure_svg(figure);
+  EXPECT_EQ(count(svg, "<path class=\"level\""), 1U) << svg;
+  EXPECT_EQ(count(svg, ">static</text>"), 1U) << svg;
+}
+
 TEST(Chart, LonePointsAreDots) {
   EXPECT_EQ(count(figure_html(one_curve({1}, {3})), "h0\""), 1U);
   EXPECT_EQ(count(figure_html(one_curve({0, 1, 2}, {0, std::nan(""), 1})), "h0"), 2U);
@@ -211,6 +228,13 @@ TEST(PatchMovie, OfASingleFrameDoesNotPlay) {
   EXPECT_NE(movie_html(movie).find("aria-label=\"instant\" hidden>"), std::string::npos);
   movie.frames.push_back(movie.frames.front());
   EXPECT_EQ(movie_html(movie).find(" hidden>"), std::string::npos);
+}
+
+TEST(PatchMovie, SaysWhetherTheWheelRolls) {
+  PatchMovie movie = one_frame();
+  EXPECT_EQ(count(movie_html(movie), "\"rolls\": true"), 1U) << movie_html(movie);
+  movie.rolls = false;
+  EXPECT_EQ(count(movie_html(movie), "\"rolls\": false"), 1U) << movie_html(movie);
 }
 
 TEST(PatchMovie, TextsCannotEndTheScript) {

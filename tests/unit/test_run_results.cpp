@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
@@ -396,6 +397,25 @@ TEST(ForceFigure, NamesTheCoefficientOfFriction) {
   EXPECT_NE(caption.find("f = 0.299."), std::string::npos) << caption;
 }
 
+TEST(ForceFigure, BrakesHaveTheirLimitBelow) {
+  const Model model(samples::tyre_scene({"scene.element_size=12 mm", "contact.friction=0.299"}));
+  RunResults r;
+  r.samples = rolling(-kForce, 0.0027);
+  r.longitudinal_force.mean = -kForce;
+  const Figure forces = force_figure(model, r);
+  const Panel& panel = forces.panels.front();
+  EXPECT_EQ(panel.series.front().label, "−f F_N");
+  EXPECT_NEAR(panel.series.front().y.front(), -0.299 * 80, 1e-9);
+  EXPECT_EQ(panel.levels.front().label, "static −f F_N");
+  EXPECT_LT(panel.levels.front().at, 0);
+  EXPECT_NE(forces.caption.find("meets −f F_N the whole patch slides. f = 0.299."), std::string::npos)
+      << forces.caption;
+  EXPECT_EQ(passage_figure(model, r).panels[1].levels.front().at, -0.299);
+  r.longitudinal_force.mean = -100;  // rolls freely
+  EXPECT_EQ(force_figure(model, r).panels.front().series.front().label, "f F_N");
+  EXPECT_EQ(passage_figure(model, r).panels[1].levels.front().label, "f");
+}
+
 TEST(ForceFigure, ShowsTheSurfaceThatThePatchMeets) {
   const Model model(
       samples::tyre_scene({"scene.element_size=12 mm", "surface.hole.kind=dent", "surface.hole.at=75 mm",
@@ -432,6 +452,81 @@ TEST(FigureParts, FasteningsAreMarkedWhereTheyStand) {
   ASSERT_EQ(std::ssize(figure.positions), scene.fastenings->count);
   EXPECT_NEAR(figure.positions[1].at - figure.positions[0].at, scene.fastenings->spacing + 0.1, 1e-12);
   EXPECT_NEAR(figure.positions[2].at - figure.positions[1].at, scene.fastenings->spacing - 0.1, 1e-12);
+}
+
+TEST(FigureParts, AWheelThatStandsIsShownOverTime) {
+  RunResults r;
+  r.samples = {sample_at(0, 0), sample_at(8, 1)};
+  const Model standing = zoned_model({"motion.speed=0 m/s"});
+  const Figure over_time = patch_figure(standing, r);
+  EXPECT_EQ(over_time.x_label, "Time [ms]");
+  EXPECT_NEAR(over_time.panels.front().series.front().x.back(), 8e3 * kApart, 1e-12);
+  EXPECT_NEAR((*over_time.x_range)[1], 8e3 * kApart, 1e-12);
+  const PatchMovie at_rest = patch_movie(standing, r);
+  EXPECT_FALSE(at_rest.rolls);
+  EXPECT_EQ(at_rest.title, "The patch at rest");
+  EXPECT_EQ(at_rest.caption.find("rolling"), std::string::npos) << at_rest.caption;
+  const Model rolls = zoned_model();
+  const Figure over_the_way = patch_figure(rolls, r);
+  EXPECT_EQ(over_the_way.x_label, "Position of the wheel [m]");
+  EXPECT_NEAR(over_the_way.panels.front().series.front().x.back(), kWay, 1e-12);
+  EXPECT_TRUE(patch_movie(rolls, r).rolls);
+}
+
+TEST(CreepageFigure, AGuidedBoreShowsItsCarrier) {
+  RunResults r;
+  r.samples = {sample_at(0, 0), sample_at(1, 1)};
+  const auto shown = [&](const char* bore) {
+    return creepage_figure(zoned_model({std::string("wheel.bore=") + bore}), r, {});
+  };
+  const Figure guided = shown("guided");
+  EXPECT_EQ(guided.panels.front().series[1].label, "of the bore's carrier");
+  EXPECT_NE(guided.caption.find("the carrier is rigid."), std::string::npos) << guided.caption;
+  EXPECT_EQ(shown("free").panels.front().series[1].label, "mean of 28 nodes around the tread");
+}
+
+TEST(FasteningForces, AreThoseAboutTheBlow) {
+  const Model model(
+      read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml",
+                 {"scene.element_size=11 mm", "rail.length=2.6 m", "rail.origin=0.65 m", "fastenings.count=4",
+                  "hammer.position=1.3 m", "output.fastening_forces=true"}));
+  std::vector<MeasuredChannel> channels;
+  MeasuredRows::Kept kept;
+  for (int i = 0; i < 4; ++i) {
+    kept.names.push_back("fastening_0" + std::to_string(i + 1) + "_force");
+    kept.values.push_back(1e3 * i);
+    channels.push_back({.channel = {kept.names.back(), "N", "force"}, .at = model.scene.fastening_x(i)});
+  }
+  RunResults r;
+  r.samples.resize(1);
+  r.measured = MeasuredRows(channels, kept, 1);
+  const Chapter chapter = measurement_chapter(model, r);
+  ASSERT_EQ(chapter.blocks.size(), 1U);
+  const std::vector<Series>& shown = std::get<Figure>(chapter.blocks.front()).panels.front().series;
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_EQ(shown[0].label, "x = 0.975 m");
+  EXPECT_DOUBLE_EQ(shown[1].y.front(), 3);
+}
+
+TEST(MeshDrawings, NameTheBodiesThatTheyShow) {
+  const auto labels = [](const Drawing& drawing) {
+    std::vector<std::string> names;
+    for (const Layer& layer : drawing.layers) names.push_back(layer.label);
+    return names;
+  };
+  Model model = zoned_model();
+  EXPECT_EQ(labels(section_drawings(model).drawings.front()), (std::vector<std::string>{"rail", "tyre"}));
+  const Drawing track = side_drawings(model).drawings.back();
+  EXPECT_EQ(labels(track), std::vector<std::string>{"rail"});
+  EXPECT_EQ(section_drawings(model).drawings.front().title, "Cross-section under the wheel");
+  EXPECT_NEAR(track.window->low[0] + 0.2, zone_span(model.scene).first, 1e-12);
+  model.scene.motion.reset();
+  EXPECT_NEAR(side_drawings(model).drawings.back().window->low[0] + 0.2, zone_span(model.scene).first, 1e-12);
+  model.index.base_body = 0;
+  model.mesh.bodies.resize(1);
+  const Drawing bodiless = section_drawings(model).drawings.front();
+  EXPECT_EQ(labels(bodiless), (std::vector<std::string>{"rail head", "tyre"}));
+  EXPECT_EQ(bodiless.title, "Cross-section under the wheel, without bodies from files");
 }
 
 TEST(PatchMovie, StatesTheMeanCreepage) {

@@ -28,6 +28,22 @@ TEST(StudyWarnings, EachIsListedOnceWithItsPoints) {
   EXPECT_EQ(warning_table(runs).rows, rows);
 }
 
+TEST(StudyCurves, BrakesHaveTheirLimitBelow) {
+  const samples::TemporaryFolder folder;
+  std::ofstream(folder.path / "histories.csv")
+      << "wheel_x [m],vertical_force [N],longitudinal_force [N]\n0,80000,-30000\n0.1,80000,-30000\n";
+  FinishedRun run =
+      run_with("a", R"({"vertical_force_N": {"mean": 80e3}, "longitudinal_force_N": {"mean": -30e3}})");
+  run.folder = folder.path;
+  run.scene = samples::tyre_scene();
+  CurvesSpec spec{.title = "",
+                  .panels = {{"Force [kN]", {.y = {"longitudinal_force", "N"}, .y_scale = 1e-3}}}};
+  spec.panels.front().limit = true;
+  const Series limit = curves_figure(spec, {run}).panels.front().series.back();
+  EXPECT_EQ(limit.label, "−f F_N, a");
+  EXPECT_EQ(limit.y, (std::vector<double>{-40, -40}));
+}
+
 TEST(StudyTrends, AColourAGroupAndAStrokeAResult) {
   const FinishedRun run = run_with("a", R"({"vertical_force_N": {"max": 3, "mean": 2, "min": 1}})");
   const Figure figure = trend_figure("", "", fluctuation_panels(), {{&run, 0, "dry"}, {&run, 0, "wet"}});

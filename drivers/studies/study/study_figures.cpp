@@ -22,13 +22,17 @@ Series series_of(const FinishedRun& run, const CurvePanel& panel) {
   return {panel.prefix + run.label, std::move(points.x), std::move(points.y), Stroke::solid};
 }
 
-/// Force that full slip would transmit, in the panel's unit.
+/// Force that full slip would transmit on the side of the run's mean F_L, in the panel's unit.
 Series limit_of(const FinishedRun& run, const CurvePanel& panel) {
   RunCurve curve = panel.curve;
   curve.y = {"vertical_force", "N"};
-  curve.y_scale *= run.scene.contact ? run.scene.contact->largest_friction() : 0;
+  const auto mean = [&](const char* force) { return run.number(force).value_or(0); };
+  const double f = signed_friction(run.scene.contact ? run.scene.contact->largest_friction() : 0,
+                                   mean("longitudinal_force_N.mean"), mean("vertical_force_N.mean"));
+  curve.y_scale *= f;
   CurvePoints points = read_curve(run, curve);
-  return {"f F_N, " + run.label, std::move(points.x), std::move(points.y), Stroke::dotted};
+  return {(f < 0 ? "−f F_N, " : "f F_N, ") + run.label, std::move(points.x), std::move(points.y),
+          Stroke::dotted};
 }
 
 Range united(const Range& a, const Range& b) {
