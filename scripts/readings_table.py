@@ -35,8 +35,10 @@ def row(folder):
     if missing:
         sys.exit(f"{folder}: conclusions {missing} are not decided: run the set to its end first")
     by_wave_n, by_wave_l, by_wave_m, by_speed_n, by_speed_m = lists(conclusions[5][1])
-    transient, lost, multibody, lost_by_multibody = re.search(
-        r"F_N ([\d.]+) kN, without contact over (\d+) mm .* ([\d.]+) kN and (\d+) mm", conclusions[6][1]).groups()
+    found = re.search(r"F_N ([\d.]+) kN, without contact over (\d+) mm .* ([\d.]+) kN and (\d+) mm", conclusions[6][1])
+    if not found:
+        sys.exit(f"{folder}: conclusion 6 has other words than this program's: run the set again")
+    transient, lost, multibody, lost_by_multibody = found.groups()
     ours = lambda quantity, scale=1.0: float(numbers[quantity]) * scale
     held = [str(n) for n, (verdict, _) in sorted(conclusions.items()) if verdict == "reproduced"]
     partly = [str(n) for n, (verdict, _) in sorted(conclusions.items()) if verdict == "partly"]

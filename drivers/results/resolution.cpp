@@ -13,6 +13,7 @@
 #include "drivers/engine/model/body_point.hpp"
 #include "drivers/engine/model/lateral_gap.hpp"
 #include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/results/depth_warnings.hpp"
 #include "drivers/results/way_warnings.hpp"
 #include "io/scene/resolving_size.hpp"
@@ -80,22 +81,16 @@ double section_of(const HexBody& body) {
 
 /// Part of the rail that differs from the beams that stand for it, or "".
 std::string other_than_beam(const Model& model) {
-  constexpr double kAlike = 0.01, kAlikeSection = 0.03;
+  constexpr double kAlikeSection = 0.03;
   const Scene& scene = model.scene;
-  const auto alike = [](double a, double b, double share) { return std::abs(a - b) <= share * b; };
-  const auto is_beams = [&](const Material& material) {
-    const Material& beam = scene.rail_material();
-    return alike(material.youngs_modulus, beam.youngs_modulus, kAlike) &&
-           alike(material.density, beam.density, kAlike);
-  };
-  if (!is_beams(scene.head_material())) return "a head of another Young's modulus or density";
+  if (!is_of_the_beam(scene, scene.head_material())) return "a head of another Young's modulus or density";
   if (model.index.base_body < 0) return "";
   const HexBody& body = model.mesh.bodies[static_cast<std::size_t>(model.index.base_body)];
-  if (!is_beams(body.materials.front()))
+  if (!is_of_the_beam(scene, body.materials.front()))
     return fmt::format("body.{} of another Young's modulus or density", body.name);
   const double section = section_of(body);
   const double of_profile = area_moments(rail_sections(scene, model.sizes).base).area;
-  if (alike(section, of_profile, kAlikeSection)) return "";
+  if (std::abs(section - of_profile) <= kAlikeSection * of_profile) return "";
   return fmt::format("body.{} of {:.4g} cm2, where the profile has {:.4g} cm2 below its head,", body.name,
                      1e4 * section, 1e4 * of_profile);
 }

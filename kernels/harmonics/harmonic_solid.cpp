@@ -360,7 +360,7 @@ std::vector<HarmonicModes> HarmonicSolid::modes(const std::vector<int>& waves, c
         HarmonicMode mode;
         mode.stiffness = 1 / found.decay[k] - kHarmonicShift;
         // Waves of a bar bend, however slowly.
-        mode.rigid = mode.stiffness < 10 && (length_ == 0 || waves[i] == 0);
+        mode.rigid = !(mode.stiffness > (length_ > 0 && waves[i] > 0 ? 0 : 10));
         if (!mode.rigid) mode.flexibility = found.weight[k] / (1 - kHarmonicShift * found.decay[k]);
         flexibility += mode.flexibility;
         if (!first) continue;

@@ -334,6 +334,17 @@ TEST(ModelRange, ReachesToTheLowerTopOfRailAndWheel) {
   EXPECT_EQ(top_of_modes(model, {}).part, "--wheel modal");
 }
 
+TEST(ModelRange, ABeamLacksAHeadOfAnotherMaterial) {
+  MultibodyModel model = model_of(300, 80);
+  Material light = model.scene.rail_material();
+  light.density *= 0.9;
+  model.scene.materials["light"] = light;
+  model.scene.rail->head_material = "light";
+  const std::vector<std::string> warnings = run_multibody(model, kQuick).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(warnings[0].starts_with("the beam is of rail.material alone")) << warnings[0];
+}
+
 TEST(ModelRange, WavesBeyondTheModesWarn) {
   const MultibodyModel model = model_of(300, 80);
   EXPECT_TRUE(run_multibody(model, kQuick).warnings.empty());

@@ -187,7 +187,7 @@ TEST(SolidRail, HasTheWavesOfTheBeamWhereTheyAreLong) {
   expect_waves_of_the_beam(scene(""), 2000, 8e-3, 6);
 }
 
-/// The longest wave of 60 m bends once in four seconds.
+/// The longest wave of 60 m bends once in seven seconds.
 TEST(SolidRail, HasTheLongestWavesOfALongRail) {
   Scene of = scene("");
   of.rail->length = 60;

@@ -1,12 +1,19 @@
 #include "drivers/engine/start/rail_beam.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "drivers/engine/model/sections.hpp"
 
 namespace tread {
+
+bool is_of_the_beam(const Scene& scene, const Material& part) {
+  const Material& beam = scene.rail_material();
+  const auto alike = [](double a, double b) { return std::abs(a - b) <= 0.01 * b; };
+  return alike(part.youngs_modulus, beam.youngs_modulus) && alike(part.density, beam.density);
+}
 
 BeamSection rail_beam_section(const Scene& scene) {
   if (!scene.rail) throw InputError("a beam section needs [rail]");

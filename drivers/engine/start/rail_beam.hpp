@@ -13,6 +13,9 @@ namespace tread {
 /// InputError without [rail].
 BeamSection rail_beam_section(const Scene& scene);
 
+/// Returns true if a part of the rail is of the beam's material, rail.material, to a hundredth.
+bool is_of_the_beam(const Scene& scene, const Material& part);
+
 /// The columns of a scene's fastenings, and of so many more fastenings to their left; none without
 /// [fastenings]. InputError without rail.
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans = 0);

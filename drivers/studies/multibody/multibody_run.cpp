@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
 #include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 
 namespace tread {
 
@@ -93,15 +94,6 @@ void evaluate(const MultibodyModel& model, MultibodyResult& r) {
   }
 }
 
-/// Returns true if a beam stands for a head of another material than its own.
-bool lacks_head(const MultibodyModel& model) {
-  const Material& head = model.scene.head_material();
-  const Material& beam = model.scene.rail_material();
-  const auto differ = [](double a, double b) { return std::abs(a - b) > 0.01 * b; };
-  return !model.solid &&
-         (differ(head.youngs_modulus, beam.youngs_modulus) || differ(head.density, beam.density));
-}
-
 /// Sentences on waves that pass faster than the modes vibrate, on forces beyond the pressed half-spaces', and
 /// on a head that the beam lacks.
 std::vector<std::string> range_warnings(const MultibodyModel& model, const MultibodyStep& step,
@@ -119,7 +111,7 @@ std::vector<std::string> range_warnings(const MultibodyModel& model, const Multi
         fmt::format("F_N reaches {:.1f} kN, and --contact half-space presses up to {:.1f} kN and goes on "
                     "straight; state a smaller depth or --contact hertz",
                     1e-3 * largest_force, 1e-3 * model.sine.most()));
-  if (lacks_head(model))
+  if (!model.solid && !is_of_the_beam(model.scene, model.scene.head_material()))
     warnings.emplace_back(
         "the beam is of rail.material alone, and rail.head_material has another Young's modulus or density; "
         "state --beam solid");

@@ -87,7 +87,7 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
   const double highest = 2 * std::numbers::pi * top;
   out.modes.push_back({0, 0, rigid, rigid, 0});
   const auto counts = [&](const HarmonicMode& mode) {
-    return !mode.rigid && mode.stiffness > 0 && mode.stiffness < highest * highest &&
+    return !mode.rigid && mode.stiffness < highest * highest &&
            std::max(std::abs(mode.amplitude[kHead]), std::abs(mode.amplitude[kFoot])) > kLeastMotion * rigid;
   };
   // By families, along which the harmonics follow one another.

@@ -130,10 +130,16 @@ std::vector<double> places_of(const FinishedRun& run) {
                         pressure.y);
 }
 
-/// Returns true if the wheel has passed half of the stretch from the first of the places to the last.
-bool has_come_to(const FinishedRun& run, const std::vector<double>& places) {
+/// Returns true if the wheel has come so far that places_of() are those of the whole passage: three waves, or
+/// half of the last 0.12 m.
+bool has_come_to_places(const FinishedRun& run) {
   const CurvePoints way = history_over_way(run, "max_pressure", "Pa");
-  return !way.x.empty() && way.x.back() > 0.5 * (places.front() + places.back());
+  const Span stretch = evaluated_stretch(run.scene, run.corrugation());
+  const auto& waves = run.scene.corrugation;
+  const double needed = waves && waves->kind == "sine"
+                            ? std::min(stretch.last, stretch.first + 3 * waves->wavelength)
+                            : stretch.last - 0.06;
+  return !way.x.empty() && way.x.back() >= needed;
 }
 
 DrawnFigure drawn_snapshots(const std::string& title, const FinishedRun& run) {
@@ -167,8 +173,7 @@ DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   if (wanted.instants || !wanted.surface.empty()) {
     const FinishedRun* run = runs.find(wanted.passages.front());
     if (!run) return {Text{title + "."}, "", ""};
-    if (!has_come_to(*run, places_of(*run)))
-      return {Text{title + ": the wheel has not rolled that far."}, "", ""};
+    if (!has_come_to_places(*run)) return {Text{title + ": the wheel has not rolled that far."}, "", ""};
     return wanted.instants ? drawn_snapshots(title, *run) : drawn_surface(title, wanted, *run);
   }
   const Figure figure =

@@ -57,12 +57,6 @@ CurvePanel creepage() {
   return history("Creepage [%]", "creepage_mean", "-", 100, "mean of 28 nodes, ");
 }
 
-CurvePanel over_time(CurvePanel panel) {
-  panel.curve.x = {"time", "s"};
-  panel.curve.x_scale = 1e3;
-  return panel;
-}
-
 std::vector<CurvePanel> surface_displacement() {
   const auto state = [](const char* column, std::string prefix) {
     const RunCurve curve{

@@ -21,6 +21,13 @@ struct CurvePanel {
   bool limit = false;  ///< true with f F_N, dashed, beside it
 };
 
+/// The panel over time [ms].
+inline CurvePanel over_time(CurvePanel panel) {
+  panel.curve.x = {"time", "s"};
+  panel.curve.x_scale = 1e3;
+  return panel;
+}
+
 struct CurvesSpec {
   std::string title;
   std::string x_label = "Position of the wheel [m]";

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "drivers/engine/model/station_plan.hpp"
 #include "drivers/studies/study/study_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/scene/schema.hpp"
@@ -174,15 +175,25 @@ Table result_table(const std::vector<FinishedRun>& runs) {
   return table;
 }
 
-Chapter curve_chapter(const std::vector<FinishedRun>& rolled) {
+Chapter curve_chapter(std::vector<FinishedRun> rolled) {
+  const auto at_rest = [](const FinishedRun& run) { return stands(run.scene); };
+  const bool all_stand = std::ranges::all_of(rolled, at_rest);
+  if (!all_stand) std::erase_if(rolled, at_rest);
+  const auto add_histories = [&](CurvesSpec spec, Chapter& to) {
+    if (all_stand) {
+      spec.x_label = "Time [ms]";
+      for (CurvePanel& panel : spec.panels) panel = over_time(panel);
+    }
+    add_curves(spec, rolled, to);
+  };
   Chapter chapter{"Curves", {}};
   CurvesSpec forces{.title = "Contact forces", .panels = {}, .name = "forces"};
   forces.panels.push_back({"F_N [kN]", {.y = {"vertical_force", "N"}, .y_scale = 1e-3}, "F_N, "});
   forces.panels.push_back({"F_L [kN]", {.y = {"longitudinal_force", "N"}, .y_scale = 1e-3}, "F_L, "});
-  add_curves(forces, rolled, chapter);
-  CurvesSpec creepage{.title = "Longitudinal creepage, mean of 28 nodes", .panels = {}, .name = "creepage"};
+  add_histories(forces, chapter);
+  CurvesSpec creepage{.title = "Longitudinal creepage, mean", .panels = {}, .name = "creepage"};
   creepage.panels.push_back({"Creepage [%]", {.y = {"creepage_mean", "-"}, .y_scale = 100}, "", 200});
-  add_curves(creepage, rolled, chapter);
+  add_histories(creepage, chapter);
   CurvesSpec surface{.title = "What the passage leaves on the patch's longitudinal axis",
                      .x_label = "Position on the rail [m]",
                      .panels = {},

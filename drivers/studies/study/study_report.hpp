@@ -32,8 +32,9 @@ Table warning_table(const std::vector<FinishedRun>& runs);
 /// Headline results of the runs for readers.
 Table result_table(const std::vector<FinishedRun>& runs);
 
-/// Forces, creepage, Von Mises stress and frictional work of runs that have rolled, over one another.
-Chapter curve_chapter(const std::vector<FinishedRun>& rolled);
+/// Forces, creepage, Von Mises stress and frictional work of runs that have rolled, over one another: over
+/// time if all wheels stand, else without those that stand.
+Chapter curve_chapter(std::vector<FinishedRun> rolled);
 
 /// State and values of the points.
 Table point_table(const StudyPlan& plan);
