@@ -83,7 +83,7 @@ class ThreadRanks final : public Ranks {
       ASSERT_LT(at, from.size()) << "rank " << rank_ << " waits for more than rank " << segment.rank
                                  << " sends";
       ASSERT_EQ(from[at].bytes.size(), segment.bytes.size());
-      std::memcpy(segment.bytes.data(), from[at++].bytes.data(), segment.bytes.size());
+      std::ranges::copy(from[at++].bytes, segment.bytes.begin());
       traffic.received += std::ssize(segment.bytes);
     }
     meeting_->barrier.arrive_and_wait();
