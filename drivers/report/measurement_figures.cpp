@@ -33,8 +33,10 @@ Series curve(std::string label, const Model& model, const RunResults& r, std::si
 std::vector<Series> curves(const std::string& name, const std::vector<std::string>& parts, const Model& model,
                            const RunResults& r) {
   std::vector<Series> list;
+  list.reserve(parts.size());
   for (const std::string& part : parts)
-    list.push_back(curve(part.substr(part.rfind('_') + 1), model, r, r.measured.column(name + "_" + part)));
+    list.push_back(curve(part.substr(part.rfind('_') + 1), model, r,
+                         r.measured.column(fmt::format("{}_{}", name, part))));
   return list;
 }
 

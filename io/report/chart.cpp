@@ -92,7 +92,7 @@ Range y_range(const Panel& panel, const Range& x) {
   const Range range = extent.range();
   Range whole = range;
   double step = 0;  // a wider range may need larger steps
-  for (double next; (next = tick_step(whole[0], whole[1], tick_count(panel.height))) > step;) {
+  for (double next = 0; (next = tick_step(whole[0], whole[1], tick_count(panel.height))) > step;) {
     step = next;
     whole = {std::floor(range[0] / step + 1e-9) * step, std::ceil(range[1] / step - 1e-9) * step};
   }

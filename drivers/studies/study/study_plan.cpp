@@ -281,8 +281,10 @@ void project_cost(StudyPlan& plan, bool retry) {
   std::map<SceneContent, std::vector<PlannedPoint*>> alike;
   for (PlannedPoint& point : plan.points)
     if (point.to_run(retry)) alike[model_content(plan, point)].push_back(&point);
-  for (const auto& [content, points] : alike)
+  for (const auto& group : alike) {
+    const std::vector<PlannedPoint*>& points = group.second;
     try_point(*points.front(), plan.study, problems, [&](PlannedPoint&) { project_alike(plan, points); });
+  }
   problems.throw_if_any();
   choose_keepers(plan, retry);
   subtract_shared(plan);
