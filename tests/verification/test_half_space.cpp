@@ -251,12 +251,12 @@ TEST(HalfSpaceRolling, ExtrapolatesToFineGrids) {
 /// CONTACT's creepages near the limit of friction.
 TEST(HalfSpaceRolling, ExtrapolatesNearFullSliding) {
   struct Row {
-    double mu, creepage, cell, bound;
+    double mu, creepage, cell;
   };
-  for (const Row& row : {Row{0.4, 0.004102, 0.55e-3, 0.01}, Row{0.45, 0.005205, 1e-3, 0.02}}) {
+  for (const Row& row : {Row{0.4, 0.004102, 0.55e-3}, Row{0.45, 0.005205, 1e-3}}) {
     const SteadyCase steady{kSteel, kRadiusX, kRadiusY, kLoad, kFriction, row.mu * kLoad, kElement};
     compare("creepage at mu " + std::to_string(row.mu).substr(0, 4),
-            extrapolated_summary(steady, row.cell).creepage, row.creepage, row.bound);
+            extrapolated_summary(steady, row.cell).creepage, row.creepage, 0.01);
   }
 }
 
