@@ -20,7 +20,7 @@ struct WholeRun {
   std::int64_t steps;
   Simulation simulation;
 
-  /// Of `count` steps of dt [s] one in `every` is sampled.
+  /// Takes `count` steps of dt [s]; one in `every` is sampled.
   WholeRun(Model& model, const Preload& preload, double dt, std::int64_t count, std::int64_t every)
       : steps(count), simulation(model, preload, dt) {
     simulation.set_sampling_interval(every);

@@ -11,10 +11,10 @@
 
 namespace tread {
 
-/// Wear coefficient, wavelengths that wear, and profile of a development.
 /// Least coherence of a telling band of several lines. [theory.md, eq. W5]
 inline constexpr double kTellingCoherence = 0.5;
 
+/// Wear coefficient, wavelengths that wear, and profile of a development.
 struct WearPlan {
   double per_work = 0;  ///< volume worn off per frictional work [m3/J]
   double change = 0;    ///< largest change of the depth by one simulated passage [-]
