@@ -167,10 +167,10 @@ MaterialDamping find_material_step(const std::vector<Stiffening>& parts, const A
   return damping;
 }
 
-AssembledStep assembled_step(const Model& model) {
-  const AssembledBodies bodies(model);
+/// `omega`: AssembledBodies::frequency() [rad/s]
+AssembledStep assembled_step(const Model& model, const AssembledBodies& bodies, double omega) {
   AssembledStep step;
-  step.omega = bodies.frequency();
+  step.omega = omega;
   const MaterialDamping material = find_material_step(stiffenings(model), bodies, step);
   step.stable = step.material;
   // A shorter step makes the dampers stiffer: comes down on the answer from above and takes a little less.
@@ -223,33 +223,48 @@ std::size_t heaviest_damped(const std::vector<Stiffening>& parts,
   return heaviest;
 }
 
-}  // namespace
-
-void refuse_heavy_damping(const Model& model) {
+/// Betas of the parts; a branch takes a bounded part of the step.
+std::vector<Stiffening> betas(const Model& model) {
   std::vector<Stiffening> parts = stiffenings(model);
-  bool suspect = false;
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    parts[part].branch = 1;  // takes a bounded part of the step
-    const double fraction = material_of(model, part).high_frequency_fraction;
-    suspect |= parts[part].beta > 0 && (fraction == 0 || fraction > kMostFraction);
-  }
-  if (!suspect) return;
-  StepLimit limit;
-  limit.stiffest = stiffest_elements(model);
-  // No assembled body is stiffer than its stiffest element.
-  if (largest_of(parts).beta <= kMostFraction * limit.stiffest[limit.stiffest_block()].step) return;
+  for (Stiffening& part : parts) part.branch = 1;
+  return parts;
+}
 
-  const AssembledBodies bodies(model);
+/// Returns true if a material states a beta that may take too much.
+bool is_suspect(const Model& model) {
+  const std::vector<Stiffening> parts = betas(model);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const double fraction = material_of(model, part).high_frequency_fraction;
+    if (parts[part].beta > 0 && (fraction == 0 || fraction > kMostFraction)) return true;
+  }
+  return false;
+}
+
+std::size_t shortest_of(const std::vector<StiffestElement>& elements) {
+  const auto shortest = std::ranges::min_element(elements, {}, &StiffestElement::step);
+  return static_cast<std::size_t>(shortest - elements.begin());
+}
+
+/// Returns true if all elements have enough of their step; no assembled body is stiffer than its stiffest
+/// one.
+bool is_harmless(const Model& model, const std::vector<StiffestElement>& elements) {
+  return largest_of(betas(model)).beta <= kMostFraction * elements[shortest_of(elements)].step;
+}
+
+/// refuse_heavy_damping() by the assembled bodies; `omega_free`: their frequency [rad/s].
+void judge_damping(const Model& model, const std::vector<StiffestElement>& elements,
+                   const AssembledBodies& bodies, double omega_free) {
+  const std::vector<Stiffening> parts = betas(model);
   AssembledStep step;
-  step.omega = bodies.frequency();
+  step.omega = omega_free;
   find_material_step(parts, bodies, step);
   const double free_step = stable_step(step.omega, 0);
   const double least = kLeastShare * free_step;
   if (step.material >= (1 - kStepTolerance) * least) return;
 
-  const std::size_t part = heaviest_damped(parts, limit.stiffest);
+  const std::size_t part = heaviest_damped(parts, elements);
   const double beta = parts[part].beta;
-  const double omega = 2 / limit.stiffest[part].step;
+  const double omega = 2 / elements[part].step;
   // Accepted for sure: by this element alone, or where all parts have it. Printed, it is still less.
   const double largest =
       0.995 * std::max(0.5 * (4 / (omega * omega * least) - least), kMostFraction * free_step);
@@ -260,29 +275,40 @@ void refuse_heavy_damping(const Model& model) {
       "{:g} % must be left: state rayleigh_beta of at most {:.3g} s, or {{ kind = "
       "\"high_frequency_fraction\", value = xi }} with xi of at most {:g} (LS-DYNA's positive COEF), or with "
       "this beta damping_up_to = \"3 kHz\" or another frequency that is enough",
-      beta, material_of(model, part).name, stable_step(omega, beta), limit.stiffest[part].name, omega,
+      beta, material_of(model, part).name, stable_step(omega, beta), elements[part].name, omega,
       0.5 * beta * omega, step.material, 100 * step.material / free_step, free_step, 100 * kLeastShare,
       largest, kMostFraction));
 }
 
+}  // namespace
+
+void refuse_heavy_damping(const Model& model) {
+  if (!is_suspect(model)) return;
+  const std::vector<StiffestElement> elements = stiffest_elements(model);
+  if (is_harmless(model, elements)) return;
+  const AssembledBodies bodies(model);
+  judge_damping(model, elements, bodies, bodies.frequency());
+}
+
 double stable_step_of(const Model& model) {
-  return assembled_step(model).stable;
+  const AssembledBodies bodies(model);
+  return assembled_step(model, bodies, bodies.frequency()).stable;
 }
 
 std::size_t StepLimit::stiffest_block() const {
-  const auto shortest = std::min_element(stiffest.begin(), stiffest.end(),
-                                         [](const auto& a, const auto& b) { return a.step < b.step; });
-  return static_cast<std::size_t>(shortest - stiffest.begin());
+  return shortest_of(stiffest);
 }
 
 StepLimit step_limit(const Model& model) {
-  refuse_heavy_damping(model);
   StepLimit limit;
-  const AssembledStep step = assembled_step(model);
-  const double omega = step.omega;
+  limit.stiffest = stiffest_elements(model);
+  const AssembledBodies bodies(model);
+  const double omega = bodies.frequency();
+  if (is_suspect(model) && !is_harmless(model, limit.stiffest))
+    judge_damping(model, limit.stiffest, bodies, omega);
+  const AssembledStep step = assembled_step(model, bodies, omega);
   const Stiffening material = largest_of(stiffenings(model));
   limit.stable_step = step.stable;
-  limit.stiffest = stiffest_elements(model);
   const StiffestElement& stiffest = limit.stiffest[limit.stiffest_block()];
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
