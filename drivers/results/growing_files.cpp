@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,7 @@ GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& dire
       histories_(directory, channels_, root_attributes(model.scene)) {
   if (model.contact)
     patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene));
+  identify();
 }
 
 GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& directory,
@@ -40,10 +42,21 @@ GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& dire
       histories_(directory, channels_, root_attributes(model.scene)) {
   for (std::size_t i = 0; i < results.samples.size(); ++i)
     histories_.append(row_of(results.samples[i], results.measured.row(i)));
-  if (!model.contact) return;
-  write_text_file(directory / kPatchFile, patch);
-  patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene),
-                 results.samples.size());
+  if (model.contact) {
+    write_text_file(directory / kPatchFile, patch);
+    patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene),
+                   results.samples.size());
+  }
+  identify();
+}
+
+void GrowingFiles::identify() {
+  for (const char* name : {"run.h5", "histories.csv"}) identities_.emplace_back(directory_ / name);
+  if (patch_) identities_.emplace_back(directory_ / kPatchFile);
+}
+
+bool GrowingFiles::in_place() const {
+  return std::ranges::all_of(identities_, [](const FileIdentity& file) { return file.in_place(); });
 }
 
 std::vector<double> GrowingFiles::row_of(const Sample& sample, std::span<const double> measured) const {

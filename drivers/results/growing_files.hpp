@@ -10,6 +10,7 @@
 
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/run_results.hpp"
+#include "io/files/file_identity.hpp"
 #include "io/files/history_file.hpp"
 
 namespace tread {
@@ -33,12 +34,16 @@ class GrowingFiles {
   /// Samples in the files of the histories.
   std::int64_t rows_written() const { return histories_.rows_written(); }
 
+  /// Returns true while all files have their names: data go nowhere without.
+  bool in_place() const;
+
   /// Bytes of patch.h5 with all samples so far; empty without contact.
   std::string patch_bytes();
 
   void close();
 
  private:
+  void identify();
   std::vector<double> row_of(const Sample& sample, std::span<const double> measured) const;
 
   const Model* model_;
@@ -46,6 +51,7 @@ class GrowingFiles {
   std::vector<Channel> channels_;
   HistoryFile histories_;
   std::optional<PatchFile> patch_;
+  std::vector<FileIdentity> identities_;  ///< of all files
 };
 
 }  // namespace tread

@@ -17,6 +17,7 @@
 #include "drivers/results/rail_ends.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/run_folder.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/units.hpp"
@@ -91,12 +92,6 @@ Found find_state(const Place& place, const Progress& progress) {
                   place.folder.string(), until, newest_time));
 }
 
-/// Text of the file that a value names; empty if it names none.
-std::string file_text(const ResolvedScene& scene, const std::string& value) {
-  const auto found = scene.source.files.find(value);
-  return found == scene.source.files.end() ? "" : found->second;
-}
-
 /// "motion.speed (300 km/h there, 250 km/h here)" for each value whose effects `counts` and that differs, or
 /// whose file does.
 template <class Counts>
@@ -106,19 +101,17 @@ std::vector<std::string> differences(const ResolvedScene& there, const ResolvedS
   for (std::size_t side = 0; side < 2; ++side)
     for (const Entry& entry : (side == 0 ? there : here).entries)
       if (counts(find_key(entry.path)->effects)) values[entry.path][side] = &entry;
+  const SceneContent of_there = content_of(there, counts), of_here = content_of(here, counts);
   std::vector<std::string> texts;
   for (const auto& [path, entry] : values) {
     const auto shown = [](const Entry* of) {
       return of == nullptr || of->shown.empty() ? std::string("absent") : of->shown;
     };
     const bool both = entry[0] != nullptr && entry[1] != nullptr;
-    if (both && !file_text(here, entry[1]->value).empty() &&
-        file_text(there, entry[0]->value) == file_text(here, entry[1]->value) &&
-        fs::path(entry[0]->value).extension() == fs::path(entry[1]->value).extension())
-      continue;  // wherever it lies
+    if (both && of_there.at(path) == of_here.at(path)) continue;
     if (!both || entry[0]->value != entry[1]->value || entry[0]->unit != entry[1]->unit)
       texts.push_back(fmt::format("{} ({} there, {} here)", path, shown(entry[0]), shown(entry[1])));
-    else if (file_text(there, entry[0]->value) != file_text(here, entry[1]->value))
+    else
       texts.push_back(fmt::format("{} (another content of {})", path, shown(entry[1])));
   }
   return texts;

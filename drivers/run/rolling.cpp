@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
@@ -46,7 +45,6 @@ void Rolling::begin() {
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
   results_->measured = MeasuredRows(simulation_->measurements().channels());
   files_.emplace(*model_, session_->folder.path(), *results_);
-  know_files();
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, 0);
 }
 
@@ -57,7 +55,6 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                                     results_->samples.size());
   files_.emplace(*model_, session_->folder.path(), *results_,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
-  know_files();
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, simulation_->steps());
   for (const std::string& gap : frames_->gaps(simulation_->steps()))
     session_->progress.say("[warning] " + gap);
@@ -302,7 +299,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   }
   close_quietly();
   const std::string folder = session_->folder.path().string();
-  if (files_in_place())
+  if (files_->in_place())
     text += fmt::format("; {} samples are kept in {}; {}", files_->rows_written(), folder, how_to_go_on<E>());
   else if (const std::string moved = moved_text(folder); moved != why)
     text += "; " + moved;
@@ -317,18 +314,8 @@ void Rolling::close_quietly() {
   }
 }
 
-void Rolling::know_files() {
-  for (const char* name : {"run.h5", "histories.csv"}) known_files_.emplace_back(session_->folder / name);
-  if (model_->contact) known_files_.emplace_back(session_->folder / kPatchFile);
-}
-
-bool Rolling::files_in_place() const {
-  return std::all_of(known_files_.begin(), known_files_.end(),
-                     [](const FileIdentity& file) { return file.in_place(); });
-}
-
 void Rolling::require_files() const {
-  if (!files_in_place()) throw ResourceError(moved_text(session_->folder.path()));
+  if (!files_->in_place()) throw ResourceError(moved_text(session_->folder.path()));
 }
 
 double Rolling::seconds() const {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/parallel/background_task.hpp"
 #include "drivers/engine/simulation.hpp"
@@ -15,7 +14,6 @@
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/followers.hpp"
 #include "drivers/run/run_session.hpp"
-#include "io/files/file_identity.hpp"
 
 namespace tread {
 
@@ -61,10 +59,6 @@ class Rolling {
   template <class E>
   std::string how_to_go_on() const;
   void close_quietly();
-  /// Notes the files that grow, which are there from the start on.
-  void know_files();
-  /// Returns true while the growing files have their names: data go nowhere without.
-  bool files_in_place() const;
   /// Throws ResourceError where a growing file has lost its name.
   void require_files() const;
   /// Says once if the threads often have to wait for a core.
@@ -82,7 +76,6 @@ class Rolling {
   std::optional<Simulation> simulation_;
   Followers followers_;
   std::optional<GrowingFiles> files_;
-  std::vector<FileIdentity> known_files_;  ///< of files_
   std::optional<FrameFiles> frames_;
   std::int64_t end_ = 0;                   ///< steps of the whole run
   std::optional<std::int64_t> fork_step_;  ///< step whose state is kept for other runs
