@@ -56,6 +56,11 @@ Figure over_the_way(std::string name, std::string title, const Model& model, con
   return figure;
 }
 
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
 ShownSurfaces shown_surfaces(const Model& model, double y) {
   const SurfacePair& pair = model.contact->surfaces();
   return {pair.corrugation(), pair.rail_depth(), pair.wheel_depth(), y};

@@ -18,6 +18,9 @@ Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker>
 void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure);
 void mark_track(const Model& model, const Range& range, Figure& figure);
 
+/// The values times a factor, as a figure shows them.
+std::vector<double> scaled(std::vector<double> values, double factor);
+
 /// Depths of both running surfaces, and the line across on which a figure shows them.
 struct ShownSurfaces {
   Corrugation corrugation;

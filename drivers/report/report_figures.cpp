@@ -62,7 +62,7 @@ const char* without_bodies(const Model& model) {
   return model.mesh.bodies.empty() ? "" : ", without bodies from files";
 }
 
-double friction_of(const Model& model, const RunResults& r) {
+double signed_friction_of(const Model& model, const RunResults& r) {
   return signed_friction(model.scene.contact->largest_friction(), r.longitudinal_force.mean,
                          model.wheel_load());
 }
@@ -72,7 +72,7 @@ double friction_of(const Model& model, const RunResults& r) {
 Figure force_figure(const Model& model, const RunResults& r) {
   const Scene& scene = model.scene;
   const Corrugation& corrugation = model.contact->corrugation();
-  const double f = friction_of(model, r);
+  const double f = signed_friction_of(model, r);
   const std::string limit = f < 0 ? "−f F_N" : "f F_N";
   Figure figure;
   figure.name = "forces";
@@ -94,7 +94,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
 }
 
 Figure passage_figure(const Model& model, const RunResults& r) {
-  const double f = friction_of(model, r);
+  const double f = signed_friction_of(model, r);
   Figure figure = over_the_way("passage", "Forces over the whole way", model, r);
   figure.panels.push_back(
       panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/report/figure_parts.hpp"
 #include "io/report/markup.hpp"
 #include "io/text/json.hpp"
 
@@ -20,12 +21,6 @@ constexpr double kMillion = 1e6;  ///< number of real passages for which growth 
 /// Empty for a band with one line.
 std::string coherence_text(const std::optional<double>& coherence, int digits) {
   return coherence ? fmt::format("{:.{}f}", *coherence, digits) : "";
-}
-
-std::vector<double> scaled(const std::vector<double>& values, double scale) {
-  std::vector<double> result = values;
-  for (double& value : result) value *= scale;
-  return result;
 }
 
 std::vector<double> places(const WornProfile& profile) {

@@ -48,11 +48,6 @@ Marker at_rest(const MultibodyModel& model) {
   return {1e-3 * model.vehicle.load(), "static"};
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& v : values) v *= factor;
-  return values;
-}
-
 /// F_N over the corrugation or the solution zone.
 Figure passage_figure(const MultibodyOutcome& o) {
   const MultibodyResult& r = o.result;

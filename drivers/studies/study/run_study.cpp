@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -196,9 +197,14 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
   return std::nullopt;
 }
 
-/// A line for each of the first warnings, with its points.
-std::string warning_lines(const std::vector<SharedWarning>& warnings, std::size_t most, const char* rest) {
-  std::string text;
+/// The first warnings, each with its points, behind "2 of 12 points have warnings"; empty without warnings.
+/// `points`: "12 points"; `rest`: place of the others.
+std::string warning_text(const std::vector<SharedWarning>& warnings, const std::string& points,
+                         std::size_t most, const char* rest) {
+  if (warnings.empty()) return "";
+  std::set<std::string> warned;
+  for (const SharedWarning& warning : warnings) warned.insert(warning.labels.begin(), warning.labels.end());
+  std::string text = fmt::format("{} of {} have warnings:", warned.size(), points);
   for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i) {
     const auto& [sentence, labels] = warnings[i];
     const std::string others = labels.size() > 1 ? fmt::format(" and {} more", labels.size() - 1) : "";
@@ -208,24 +214,9 @@ std::string warning_lines(const std::vector<SharedWarning>& warnings, std::size_
   return text;
 }
 
-/// Warnings of the runs to come; empty if there is none.
+/// Warnings of the runs to come.
 std::string plan_warning_text(const StudyPlan& plan, std::size_t most) {
-  const std::vector<SharedWarning> warnings = planned_warnings(plan);
-  if (warnings.empty()) return "";
-  const auto warned =
-      std::ranges::count_if(plan.points, [](const PlannedPoint& point) { return !point.warnings.empty(); });
-  return fmt::format("{} of {} points have warnings:{}", warned, plan.points.size(),
-                     warning_lines(warnings, most, "--list"));
-}
-
-/// Warnings of the finished runs; empty if there is none.
-std::string warning_text(const std::vector<FinishedRun>& runs) {
-  const std::vector<SharedWarning> warnings = shared_warnings(runs);
-  if (warnings.empty()) return "";
-  const auto warned =
-      std::ranges::count_if(runs, [](const FinishedRun& run) { return !warnings_in(run.summary).empty(); });
-  return fmt::format("{} of {} finished points have warnings:{}", warned, runs.size(),
-                     warning_lines(warnings, kMostShown, "report.html in the folders of the points"));
+  return warning_text(planned_warnings(plan), fmt::format("{} points", plan.points.size()), most, "--list");
 }
 
 /// The command of a command line: "paper" of "tread paper -o out".
@@ -306,7 +297,11 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
   leave(plan);
-  if (const std::string warnings = warning_text(finished_runs(plan)); !warnings.empty())
+  const std::vector<FinishedRun> finished = finished_runs(plan);
+  if (const std::string warnings =
+          warning_text(shared_warnings(finished), fmt::format("{} finished points", finished.size()),
+                       kMostShown, "report.html in the folders of the points");
+      !warnings.empty())
     progress.say(fmt::format("[{}] {}", command, warnings));
   return shortfall(plan, stopped_by, resume_command, options);
 }
