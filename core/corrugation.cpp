@@ -101,11 +101,17 @@ Corrugation Corrugation::rough(const Random& random, double start, double length
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
                                        double tolerance) {
   constexpr double kStep = 5e-5;  // [m]
-  // If both depths agree along the centre lines, other widths, centres or maps still show further out.
+  // If both depths agree along the centre lines, other widths, centres or maps still show further out. Maps
+  // are linear between their rows.
   constexpr int kPlaces = 16;  // to either side
   std::vector<double> across;
-  for (const Corrugation* of : {&a, &b})
+  for (const Corrugation* of : {&a, &b}) {
     for (int i = -kPlaces; i <= kPlaces; ++i) across.push_back(of->centre() + i * of->width() / kPlaces);
+    const DepthShapeView map = of->view().map.shape;
+    across.insert(across.end(), map.y, map.y + map.rows);
+  }
+  std::sort(across.begin(), across.end());
+  across.erase(std::unique(across.begin(), across.end()), across.end());
   const auto start = [](const Corrugation& c) {
     return c.smooth() ? std::numeric_limits<double>::infinity() : c.first();
   };

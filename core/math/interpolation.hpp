@@ -10,9 +10,10 @@
 namespace tread {
 
 /// Value at `place` of the curve of `y` over the increasing `x`: linear between the points, NaN beyond the
-/// ends.
+/// ends and for a place that is NaN.
 inline double value_at(const std::vector<double>& x, const std::vector<double>& y, double place) {
-  if (x.empty() || place < x.front() || place > x.back()) return std::numeric_limits<double>::quiet_NaN();
+  if (x.empty() || !(place >= x.front() && place <= x.back()))
+    return std::numeric_limits<double>::quiet_NaN();
   const auto above = std::upper_bound(x.begin(), x.end(), place);
   if (above == x.end()) return y.back();
   const auto i = static_cast<std::size_t>(above - x.begin()) - 1;

@@ -13,6 +13,8 @@ struct Statistics {
   double deviation = 0;  ///< standard deviation about the mean
 
   double range() const { return max - min; }
+  /// Returns true if the values scatter by no more than their rounding, or one of them is NaN.
+  bool constant() const { return !(deviation > 1e-12 * std::max(std::abs(min), std::abs(max))); }
 };
 
 /// Mean distance of places in their order, two at least.
@@ -24,7 +26,6 @@ inline double mean_spacing(const std::vector<double>& places) {
 template <class Items, class Counts, class Value>
 Statistics statistics(const Items& items, const Counts& counts, const Value& value) {
   Statistics s;
-  double squares = 0;
   int count = 0;
   for (const auto& item : items) {
     if (!counts(item)) continue;
@@ -32,12 +33,18 @@ Statistics statistics(const Items& items, const Counts& counts, const Value& val
     s.min = count == 0 ? v : std::min(s.min, v);
     s.max = count == 0 ? v : std::max(s.max, v);
     s.mean += v;
-    squares += v * v;
     ++count;
   }
   if (count == 0) return s;
   s.mean /= count;
-  s.deviation = std::sqrt(std::max(0.0, squares / count - s.mean * s.mean));
+  double sum = 0, squares = 0;  // about the mean: squares of large values lose the digits of a small scatter
+  for (const auto& item : items) {
+    if (!counts(item)) continue;
+    const double apart = value(item) - s.mean;
+    sum += apart;
+    squares += apart * apart;
+  }
+  s.deviation = std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
   return s;
 }
 
@@ -50,16 +57,19 @@ inline Statistics statistics(const std::vector<double>& values) {
 inline std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const Statistics of_a = statistics(a);
   const Statistics of_b = statistics(b);
-  if (of_a.deviation == 0 || of_b.deviation == 0) return std::nullopt;
+  if (of_a.constant() || of_b.constant()) return std::nullopt;
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - of_a.mean) * (b[i] - of_b.mean);
   return sum / static_cast<double>(a.size()) / (of_a.deviation * of_b.deviation);
 }
 
-/// Least-squares line through the points that are added.
+/// Least-squares line through the points that are added. Abscissae count from the first one: far from zero
+/// their squares would lose the digits of their differences.
 class LineFit {
  public:
   void add(double x, double y) {
+    if (n_ == 0) first_ = x;
+    x -= first_;
     n_ += 1;
     x_ += x;
     y_ += y;
@@ -73,6 +83,7 @@ class LineFit {
   double mean() const { return y_ / n_; }  ///< of the ordinates
 
  private:
+  double first_ = 0;
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  ///< count and sums
 };
 

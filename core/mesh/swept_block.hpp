@@ -175,4 +175,12 @@ TREAD_BODY std::int64_t dof(std::int64_t slot, int component) {
   return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
 }
 
+/// Slot and component of an index that dof() gives.
+TREAD_BODY std::int64_t slot_of(std::int64_t unknown) {
+  return unknown / (3 * kLanes) * kLanes + unknown % kLanes;
+}
+TREAD_BODY int component_of(std::int64_t unknown) {
+  return static_cast<int>(unknown / kLanes % 3);
+}
+
 }  // namespace tread

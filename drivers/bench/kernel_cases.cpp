@@ -180,7 +180,7 @@ PreparedKernel prepare_hexahedra(bool finite_rotation, bool damped, std::int64_t
   const Mesh swept = made_up_mesh(Sweep::extruded, false, elements);
   const auto data = std::make_shared<Data>(swept.blocks.front());
   data->force.set_finite_rotation(finite_rotation);
-  if (damped) data->force.set_beta(kDampedBeta);
+  if (damped) data->force.set_damping(kDampedBeta);
   data->f.resize(kHexNodeValues * data->mesh.nodes.size());
   for (std::size_t i = 0; i < data->f.size(); ++i)
     data->u.push_back(i % kHexNodeValues == 3 ? 0.0

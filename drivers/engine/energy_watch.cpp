@@ -16,6 +16,14 @@ constexpr double kGravityFloor = 1e-9;
 /// twice that at its turning points: 98 times at 0.99 of the stable step.
 constexpr double kLargestExcess = 100;
 
+/// Of all drives, whatever its sign [J].
+double work_done(const EnergyLedger& energy) {
+  double sum = 0;
+  for (const EnergyKind& kind : kEnergyKinds)
+    if (kind.role == EnergyRole::supplied) sum += std::abs(energy.*kind.member);
+  return sum;
+}
+
 }  // namespace
 
 void EnergyWatch::start(const EnergyLedger& energy, double excess, double elastic_kinetic) {
@@ -30,8 +38,7 @@ void EnergyWatch::start(const EnergyLedger& energy, double excess, double elasti
 bool EnergyWatch::balanced(const EnergyLedger& energy, double excess) {
   slowed_ = std::max(slowed_, kinetic_ - energy.kinetic - excess);
   fallen_ = std::max(fallen_, gravity_ - energy.gravity);
-  driven_ = std::max(
-      driven_, std::abs(energy.torque_work) + std::abs(energy.guide_work) + std::abs(energy.hammer_work));
+  driven_ = std::max(driven_, work_done(energy));
   supplied_ =
       stored_ + slowed_ + fallen_ + driven_ + kKineticFloor * kinetic_ + kGravityFloor * std::abs(gravity_);
   const double unbalanced = energy.total() - total_;

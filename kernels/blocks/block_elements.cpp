@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/body_frame.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
@@ -44,13 +45,6 @@ class ElementFaults {
   int count_ = 0;
   std::string text_;
 };
-
-/// Turns a vector from the basis of a node to that of a middle angle which lies `angle` before it.
-Vec3 turned(const Vec3& v, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
-}
 
 /// Appends a law that is not linear.
 template <class Real>
@@ -249,7 +243,7 @@ TileElements<Real> BlockElements<Real>::tile_elements(int tile, int tiles, doubl
   for (int i = 0; i < tiles; ++i) made_of.shifted[i] = shifted_of(tile + i);
   made_of.shifted_next = shifted_of(block().tiles[index(tile + tiles - 1)].next);
   made_of.shifts = shifts_.data();
-  made_of.beta = damping;
+  made_of.damping = damping;
   made_of.cosine = elements.cosine;
   made_of.sine = elements.sine;
   return made_of;
@@ -284,8 +278,9 @@ HexNodes BlockElements<Real>::element_nodes(const ElementPlace& at) const {
     const auto shift =
         swept.node_shift.find(swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station));
     if (shift == swept.node_shift.end()) continue;
+    // From the node's basis to that of the element's middle, which lies so far before it.
     const double angle = swept.sweep == Sweep::extruded ? 0 : (node < 4 ? -pitch / 2 : pitch / 2);
-    nodes[index(node)] += turned(shift->second, angle);
+    nodes[index(node)] += turn(shift->second, angle);
   }
   return nodes;
 }

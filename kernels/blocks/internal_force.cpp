@@ -216,14 +216,14 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
   const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
   const std::int64_t own = dof(swept.base + item.tile * slots, 0);
   const std::int64_t next = dof(swept.base + last_tile.next * slots, 0);
-  const Real* const damping = data.branch != 0 ? fields.q : data.beta != 0 ? fields.v : nullptr;
+  const Real* const added = data.branch != 0 ? fields.q : data.beta != 0 ? fields.v : nullptr;
 
   TileView<Real, U> view;
   view.u = fields.u + own;
   view.u_next = fields.u + next;
-  if (damping != nullptr) {
-    view.v = damping + own;
-    view.v_next = damping + next;
+  if (added != nullptr) {
+    view.added = added + own;
+    view.added_next = added + next;
   }
   view.f = fields.f + own;
   TileMotion<Real, U> motion[kTilesAbreast];
@@ -244,7 +244,7 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
     view.advanced_state = fields.laws->values(item.block) + data.elements.state_place(item.tile);
     view.state = view.advanced_state;
   }
-  const TileVariant variant{swept.sweep, damping != nullptr, data.finite_rotation && !fields.linear,
+  const TileVariant variant{swept.sweep, added != nullptr, data.finite_rotation && !fields.linear,
                             swept.vertical_only, law};
   forces_->loops<Real, U>().force(variant)(data.elements.tile_elements(item.tile, tiles, data.damping()),
                                            view, front_of<Real>(data.elements.plan(), law));

@@ -41,8 +41,7 @@ DeviceSums<Real, U>::DeviceSums(Device& device, const Mesh& mesh, const double* 
       folds_(device, device_folds_.size()) {
   std::vector<unsigned char> bits(index(mesh.slots), 0);
   for (const std::int64_t unknown : fixed)
-    bits[index(unknown / (3 * kLanes) * kLanes + unknown % kLanes)] |=
-        static_cast<unsigned char>(1U << unknown % (3 * kLanes) / kLanes);
+    bits[index(slot_of(unknown))] |= static_cast<unsigned char>(1U << component_of(unknown));
   fixed_ = DeviceArray<unsigned char>(device, std::span<const unsigned char>(bits));
 }
 

@@ -16,7 +16,7 @@ BodyForce::BodyForce(const HexBody& body, bool deforms_finitely)
 
 void BodyForce::set_damping(double beta, const std::optional<MaxwellBranch>& branch) {
   branch_ = branch;
-  elements_.set_beta(branch ? branch->strength : beta);
+  elements_.set_damping(branch ? branch->strength : beta);
 }
 
 std::array<double, 6> BodyForce::stress(std::size_t element, ConstNodeField u, ConstNodeField q) const {

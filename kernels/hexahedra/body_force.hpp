@@ -28,7 +28,7 @@ class BodyForce {
 
   /// Stiffness-proportional damping [s], or a Maxwell branch in place of it.
   void set_damping(double beta, const std::optional<MaxwellBranch>& branch);
-  double beta() const { return branch_ ? 0 : elements_.beta(); }
+  double beta() const { return branch_ ? 0 : elements_.damping(); }
   const std::optional<MaxwellBranch>& branch() const { return branch_; }
 
   /// f = F(u + beta v), or F(u + g q) with a branch of strength g and lag q; f is overwritten. `v`, `q`: null

@@ -186,17 +186,17 @@ HexView HexForce::view(const Chunk& chunk) const {
 }
 
 template <class U, class V>
-void HexForce::load(const Chunk& chunk, const U& u, const V* v, double* values) const {
+void HexForce::load(const Chunk& chunk, const U& u, const V* added, double* values) const {
   const NodePlace* const places = places_.data() + chunk.first_node;
   const double* const positions = positions_.data() + index(kRow) * chunk.first_position;
   const auto nodes = static_cast<std::int64_t>(chunk.nodes);
   for (std::int64_t n = 0; n < nodes; ++n) {
-    HexValues moved, rate = {};
+    HexValues moved, more = {};
     u.get(places[n].node, moved);
-    if (v != nullptr) v->get(places[n].node, rate);
+    if (added != nullptr) added->get(places[n].node, more);
     set_row(values, 2 * n, row_at(positions, n));
     double* const to = values + kRow * (2 * n + 1);
-    for (int c = 0; c < 3; ++c) to[c] = v != nullptr ? moved[c] + beta_ * rate[c] : moved[c];
+    for (int c = 0; c < 3; ++c) to[c] = added != nullptr ? moved[c] + damping_ * more[c] : moved[c];
     to[3] = 0;
   }
   for (std::int64_t n = nodes; n < nodes + static_cast<std::int64_t>(kIdleNodes); ++n) {
@@ -205,16 +205,16 @@ void HexForce::load(const Chunk& chunk, const U& u, const V* v, double* values) 
   }
 }
 
-/// `v`: null where there is no damping.
+/// `added`: null where there is no damping.
 template <class U, class V, class F>
-void HexForce::evaluate(const U& u, const V* v, const F& f, bool finite_rotation) const {
+void HexForce::evaluate(const U& u, const V* added, const F& f, bool finite_rotation) const {
   parallel_ranges(static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t first, std::int64_t last) {
     const std::size_t values = kHexNodeValues * largest_chunk_;
     double* const nodes = scratch(3 * values);
     double* const force = nodes + 2 * values;
     for (std::int64_t i = first; i < last; ++i) {
       const Chunk& chunk = chunks_[index(i)];
-      load(chunk, u, v, nodes);
+      load(chunk, u, added, nodes);
       std::fill_n(force, kHexNodeValues * (chunk.nodes + kIdleNodes), 0.0);
       HexView at = view(chunk);
       at.nodes = nodes;
@@ -240,10 +240,10 @@ void HexForce::evaluate(const U& u, const V* v, const F& f, bool finite_rotation
   });
 }
 
-void HexForce::internal_force(const double* u, const double* v, double* f) const {
-  const HexRows<const double> damped{v};
-  evaluate(HexRows<const double>{u}, v != nullptr && beta_ != 0 ? &damped : nullptr, HexRows<double>{f},
-           finite_rotation_);
+void HexForce::internal_force(const double* u, const double* added, double* f) const {
+  const HexRows<const double> damped{added};
+  evaluate(HexRows<const double>{u}, added != nullptr && damping_ != 0 ? &damped : nullptr,
+           HexRows<double>{f}, finite_rotation_);
 }
 
 void HexForce::apply(const double* u, double* f) const {
@@ -251,9 +251,9 @@ void HexForce::apply(const double* u, double* f) const {
 }
 
 template <class U, class Real>
-void HexForce::internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const {
-  const HexSlots<const Real> damped{v, slot};
-  evaluate(HexSlots<const U>{u, slot}, v != nullptr && beta_ != 0 ? &damped : nullptr,
+void HexForce::internal_force_at(std::int64_t slot, const U* u, const Real* added, Real* f) const {
+  const HexSlots<const Real> damped{added, slot};
+  evaluate(HexSlots<const U>{u, slot}, added != nullptr && damping_ != 0 ? &damped : nullptr,
            HexSlots<Real>{f, slot}, finite_rotation_);
 }
 

@@ -32,15 +32,16 @@ class HexForce {
   const HexForces& instruction_set() const { return *forces_; }
   std::int64_t nodes() const { return static_cast<std::int64_t>(mesh_->nodes.size()); }
 
-  /// Stiffness-proportional damping: forces are those of u + beta v. [s]
-  void set_beta(double beta) { beta_ = beta; }
-  double beta() const { return beta_; }
+  /// Damping: forces are those of u + damping added, where `added` is the velocity and the factor in s, or a
+  /// Maxwell branch's lag and its strength [-].
+  void set_damping(double damping) { damping_ = damping; }
+  double damping() const { return damping_; }
   /// Green-Lagrange strain in the one-point stress, as in BasicInternalForce.
   void set_finite_rotation(bool on) { finite_rotation_ = on; }
   bool finite_rotation() const { return finite_rotation_; }
 
-  /// f = F(u + beta v), overwritten; v may be null. [N]
-  void internal_force(const double* u, const double* v, double* f) const;
+  /// f = F(u + damping added), overwritten; `added` may be null. [N]
+  void internal_force(const double* u, const double* added, double* f) const;
   /// f = K u, overwritten: the linear operator, without damping. [N]
   void apply(const double* u, double* f) const;
   /// Energy of u, whose gradient is F. [J]
@@ -48,7 +49,7 @@ class HexForce {
 
   /// The same on fields of a mesh, of either precision; what is not the body's is left alone.
   template <class U, class Real>
-  void internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const;
+  void internal_force_at(std::int64_t slot, const U* u, const Real* added, Real* f) const;
   void apply_at(std::int64_t slot, const double* u, double* f) const;
   DeformationEnergy energy_at(std::int64_t slot, ConstNodeField u) const;
   DeformationEnergy linear_energy_at(std::int64_t slot, ConstNodeField u) const;  ///< of the linear operator
@@ -94,9 +95,9 @@ class HexForce {
   void add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
   void share_nodes();
   template <class U, class V, class F>
-  void evaluate(const U& u, const V* v, const F& f, bool finite_rotation) const;
+  void evaluate(const U& u, const V* added, const F& f, bool finite_rotation) const;
   template <class U, class V>
-  void load(const Chunk& chunk, const U& u, const V* v, double* values) const;
+  void load(const Chunk& chunk, const U& u, const V* added, double* values) const;
   template <class U>
   DeformationEnergy energy_of(const U& u, bool finite_rotation) const;
   HexView view(const Chunk& chunk) const;
@@ -104,7 +105,7 @@ class HexForce {
   const HexMesh* mesh_;
   std::vector<Material> materials_;
   std::vector<HexMaterial> constants_;
-  double beta_ = 0;
+  double damping_ = 0;
   bool finite_rotation_ = false;
   const HexForces* forces_;
   AlignedVector<HexRow> rows_;

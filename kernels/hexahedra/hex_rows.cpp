@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/contract.hpp"
 #include "core/index.hpp"
 
 namespace tread {
@@ -22,7 +23,11 @@ using FaceNodes = std::array<std::int32_t, 4>;
 class RowFinder {
  public:
   RowFinder(const HexMesh& mesh, std::span<const std::int32_t> elements)
-      : mesh_(mesh), elements_(elements), taken_(elements.size(), 0), faces_(6 * elements.size()) {
+      : mesh_(mesh),
+        elements_(elements),
+        taken_(elements.size(), 0),
+        line_of_(elements.size(), -1),
+        faces_(6 * elements.size()) {
     for (std::size_t e = 0; e < elements.size(); ++e)
       for (std::size_t f = 0; f < 6; ++f)
         faces_[6 * e + f] = {nodes_of(e, f), static_cast<std::int32_t>(6 * e + f)};
@@ -68,16 +73,14 @@ class RowFinder {
     return ends[0] == face ? ends[1] : ends[0];
   }
 
-  /// Elements behind a face, until one is taken or the line meets itself.
-  std::vector<Step> walk(std::size_t e, std::size_t through) const {
+  /// Elements behind a face, until one is taken or the line meets or crosses itself; `line_of_` marks them.
+  std::vector<Step> walk(std::size_t e, std::size_t through) {
     std::vector<Step> steps;
-    const std::size_t start = e;
     for (;;) {
       const std::int32_t next = beside_[6 * e + through];
-      if (next < 0 || taken_[index(next) / 6] != 0 || index(next) / 6 == start ||
-          steps.size() == elements_.size())
-        return steps;
+      if (next < 0 || taken_[index(next) / 6] != 0 || line_of_[index(next) / 6] == line_) return steps;
       e = index(next) / 6;
+      line_of_[e] = line_;
       steps.push_back({e, index(next) % 6});
       through = opposite(index(next) % 6);
     }
@@ -85,18 +88,16 @@ class RowFinder {
 
   /// Cuts the line through an element along an axis of it into rows.
   void take_line(std::size_t e, std::size_t axis) {
+    ++line_;
+    line_of_[e] = line_;
     const std::vector<Step> before = walk(e, kEnds[axis][0]);
     std::vector<Step> line;
     for (auto step = before.rbegin(); step != before.rend();
          ++step)  // from there they are entered at the other end
       line.push_back({step->element, opposite(step->face)});
     line.push_back({e, kEnds[axis][0]});
-    for (const Step& step : walk(e, kEnds[axis][1])) {
-      if (std::any_of(before.begin(), before.end(),
-                      [&](const Step& of) { return of.element == step.element; }))
-        break;
-      line.push_back(step);
-    }
+    const std::vector<Step> behind = walk(e, kEnds[axis][1]);
+    line.insert(line.end(), behind.begin(), behind.end());
     for (std::size_t first = 0; first + kRowLength <= line.size(); first += kRowLength)
       add_row({line.data() + first, kRowLength});
   }
@@ -108,6 +109,7 @@ class RowFinder {
     const HexCorners& first = mesh_.elements[index(elements_[steps[0].element])];
     for (std::size_t k = 0; k < 4; ++k) row.line[k][0] = first[entered[(4 - k) % 4]];
     for (std::size_t i = 0; i < steps.size(); ++i) {
+      TREAD_EXPECT(taken_[steps[i].element] == 0);
       taken_[steps[i].element] = 1;
       row.element[i] = elements_[steps[i].element];
       const HexCorners& corners = mesh_.elements[index(row.element[i])];
@@ -123,6 +125,8 @@ class RowFinder {
   const HexMesh& mesh_;
   std::span<const std::int32_t> elements_;
   std::vector<char> taken_;
+  std::vector<std::int64_t> line_of_;  ///< number of the last line through the element
+  std::int64_t line_ = -1;
   std::vector<std::pair<FaceNodes, std::int32_t>> faces_;  ///< and 6 element + face
   std::vector<std::int32_t> beside_;                       ///< face on the other side, likewise, or -1
   std::vector<ElementRow> rows_;

@@ -36,14 +36,14 @@ struct TileMotion {
 inline constexpr int kTilesAbreast = 2;
 
 /// Values that a tile, or a tile and the one that follows it in memory and along the sweep, read and write;
-/// `u`, `v`, `f` point to the first one's section node 0. Vector fields: per section node three components of
-/// kLanes values.
+/// `u`, `added`, `f` point to the first one's section node 0. Vector fields: per section node three
+/// components of kLanes values.
 template <class Real, class U>
 struct TileView {
-  const U* u = nullptr;       ///< displacement [m]
-  const Real* v = nullptr;    ///< velocity [m/s]; used when `damped`, at hand for `motion`
-  const U* u_next = nullptr;  ///< the same of the tile that holds the last element's far station
-  const Real* v_next = nullptr;
+  const U* u = nullptr;         ///< displacement [m]
+  const Real* added = nullptr;  ///< velocity [m/s] or lag [m], times TileElements::damping; null: no damping
+  const U* u_next = nullptr;    ///< the same of the tile that holds the last element's far station
+  const Real* added_next = nullptr;
   Real* f = nullptr;  ///< force, overwritten [N]
   /// By tile: null, or: nodes move as soon as their force is complete, and only deferred ones store it in
   /// `f`.
@@ -84,8 +84,8 @@ struct TileElements {
   const int* shifted[kTilesAbreast] = {};
   const int* shifted_next = nullptr;  ///< of the tile that holds the last element's far station; null: 0
   const LaneShifts<Real>* shifts = nullptr;  ///< the first one is zero
-  double beta = 0;                           ///< stiffness-proportional damping [s]
-  double cosine = 1;                         ///< of half the pitch (revolved)
+  double damping = 0;  ///< factor of TileView::added: of the velocity [s] or of the lag [-]
+  double cosine = 1;   ///< of half the pitch (revolved)
   double sine = 0;
 };
 

@@ -60,18 +60,22 @@ class TileFront {
     }
   }
 
-  /// A node's displacements and velocities in the next tile, its forces or masses in this one: all that comes
-  /// from memory, in an order that the processor does not foresee.
+  /// A node's displacements in the next tile and what adds to them, in this tile its forces, or its masses
+  /// and velocities: all that comes from memory, in an order that the processor does not foresee.
   TREAD_INLINE void prefetch(int node) const {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
+    const bool adds = damped || (rated && view_.added != nullptr);
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
-      const bool moves = moves_at_once(node, tile);
-      if (moves)
-        __builtin_prefetch(view_.motion[tile]->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
       prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
-      if (damped || moves || (rated && view_.v != nullptr))
-        prefetch_vector<0, first>(next(view_.v, view_.v_next, tile) + at);
-      if (!moves) prefetch_vector<1>(view_.f + tile * view_.stride + at);
+      if (adds) prefetch_vector<0, first>(next(view_.added, view_.added_next, tile) + at);
+      if (!moves_at_once(node, tile)) {
+        prefetch_vector<1>(view_.f + tile * view_.stride + at);
+        continue;
+      }
+      const TileMotion<Real, U>& motion = *view_.motion[tile];
+      __builtin_prefetch(motion.inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
+      const bool loaded = adds && motion.v == view_.added + tile * view_.stride;
+      if (!loaded) prefetch_vector<1, first>(motion.v + at);
     }
   }
 
@@ -94,7 +98,7 @@ class TileFront {
       return abreast(load<Half>(at), view_.tiles > 1 ? load<Half>(at + view_.stride) : Half{});
   }
 
-  /// Component i of the displacements, plus beta times velocity.
+  /// Component i of the displacements, plus that of damping times the velocity or lag.
   TREAD_INLINE Register displacement(std::ptrdiff_t at, int i, int part) const {
     Register u;
     if constexpr (!kRelative)
@@ -106,7 +110,7 @@ class TileFront {
                   view_.tiles > 1
                       ? rounded_difference<Real, kLanes>(view_.u + view_.stride + at, origin_[i] + kLanes)
                       : Half{});
-    if constexpr (damped) return u + static_cast<Real>(elements_.beta) * load_part(view_.v + at, part);
+    if constexpr (damped) return u + static_cast<Real>(elements_.damping) * load_part(view_.added + at, part);
     return u;
   }
 
@@ -117,7 +121,7 @@ class TileFront {
       u = static_cast<Real>(view_.u_next[at] - far_origin_[i]);
     else
       u = view_.u_next[at];
-    if constexpr (damped) return u + static_cast<Real>(elements_.beta) * view_.v_next[at];
+    if constexpr (damped) return u + static_cast<Real>(elements_.damping) * view_.added_next[at];
     return u;
   }
 
@@ -140,12 +144,12 @@ class TileFront {
 
   /// Opens the addition to a node's displacement for damping, in rows of its own.
   TREAD_INLINE void open_rate(Real* slot, std::ptrdiff_t at) const {
-    if (view_.v == nullptr) return;
-    const Real beta = static_cast<Real>(elements_.beta);
+    if (view_.added == nullptr) return;
+    const Real damping = static_cast<Real>(elements_.damping);
     spread<first>(
         slot + kRateRow * kAbreast,
-        [&](int i, int part) { return beta * load_part(view_.v + at + i * kLanes, part); },
-        [&](int i) { return beta * view_.v_next[at + i * kLanes]; }, stays);
+        [&](int i, int part) { return damping * load_part(view_.added + at + i * kLanes, part); },
+        [&](int i) { return damping * view_.added_next[at + i * kLanes]; }, stays);
   }
 
   TREAD_INLINE void open_shift(const FrontPlan::Node& node) const {

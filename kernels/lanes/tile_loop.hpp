@@ -134,7 +134,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     } else {
       State state = load_state(index, lane);
       Strain<Register> rate;
-      const bool damps = view_.v != nullptr;
+      const bool damps = view_.added != nullptr;
       if (damps) rate = deformation<kRateRow>(quad, lane, element);
       law_forces<finite_rotation>(constants, law(index), element, strain, damps ? &rate : nullptr, state,
                                   force);

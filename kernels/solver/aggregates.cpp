@@ -188,8 +188,8 @@ int Aggregates::of_slot(std::int64_t slot) const {
 }
 
 std::array<double, 6> Aggregates::mode_row(std::int64_t unknown) const {
-  const std::int64_t slot = unknown / (3 * kLanes) * kLanes + unknown % kLanes;
-  const auto component = static_cast<int>(unknown / kLanes % 3);
+  const std::int64_t slot = slot_of(unknown);
+  const int component = component_of(unknown);
   std::array<double, 6> values = {};
   if (!(free_[static_cast<std::size_t>(slot)] >> component & 1)) return values;
   const Patch& patch = patches_[static_cast<std::size_t>(of_slot(slot))];
@@ -222,13 +222,13 @@ void Aggregates::for_each_slot(const Item& item, const double* field, const Visi
   constexpr std::size_t kAhead = 8;
   const Part& part = parts_[index(item.part)];
   const SweptBlock& block = *part.block;
-  const auto slot_of = [&](std::size_t i) {
+  const auto first_slot = [&](std::size_t i) {
     return block.base + (std::int64_t{item.tile} * block.section.nodes() + part.nodes[i]) * kLanes;
   };
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    if (i + kAhead < part.nodes.size()) prefetch_vector<0>(field + dof(slot_of(i + kAhead), 0));
+    if (i + kAhead < part.nodes.size()) prefetch_vector<0>(field + dof(first_slot(i + kAhead), 0));
     const std::size_t node = index(part.nodes[i]);
-    visit(block.section.p[node], block.section.q[node], slot_of(i));
+    visit(block.section.p[node], block.section.q[node], first_slot(i));
   }
 }
 

@@ -201,8 +201,7 @@ namespace {
 std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& spring) {
   std::map<int, double> sum;
   for (std::size_t i = 0; i < spring.dofs.size(); ++i) {
-    const std::int64_t slot = spring.dofs[i] / (3 * kLanes) * kLanes + spring.dofs[i] % kLanes;
-    const int aggregate = aggregates.of_slot(slot);
+    const int aggregate = aggregates.of_slot(slot_of(spring.dofs[i]));
     if (aggregate < 0) continue;
     const auto row = aggregates.mode_row(spring.dofs[i]);
     for (int k = 0; k < aggregates.mode_count(aggregate); ++k)

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <utility>
 
-namespace tread {
+#include "core/mesh/section.hpp"
 
-std::array<double, 4> corner_shares(double xi, double eta) {
-  return {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
-}
+namespace tread {
 
 double longest_edge(const FaceCorners& face) {
   double longest = 0;
@@ -42,7 +40,7 @@ FacePlace place_on(const FaceCorners& face, const Vec3& point) {
   for (int i = 0; i < kIterations; ++i) {
     const Vec3 along_xi = (1 - eta) * (face[1] - face[0]) + eta * (face[2] - face[3]);
     const Vec3 along_eta = (1 - xi) * (face[3] - face[0]) + xi * (face[2] - face[1]);
-    const Vec3 rest = point - point_at(face, corner_shares(xi, eta));
+    const Vec3 rest = point - point_at(face, QuadPlace{xi, eta}.weights());
     const double a = dot(along_xi, along_xi), b = dot(along_xi, along_eta), c = dot(along_eta, along_eta);
     const double f = dot(along_xi, rest), g = dot(along_eta, rest);
     const double determinant = a * c - b * b;
@@ -54,7 +52,7 @@ FacePlace place_on(const FaceCorners& face, const Vec3& point) {
     if (std::abs(step_xi) + std::abs(step_eta) < 1e-14) break;
   }
   FacePlace place;
-  place.share = corner_shares(snapped(xi), snapped(eta));
+  place.share = QuadPlace{snapped(xi), snapped(eta)}.weights();
   place.at = point_at(face, place.share);
   place.distance = norm(point - place.at);
   return place;

@@ -14,9 +14,6 @@ namespace tread {
 /// Bilinear face; corners run about it.
 using FaceCorners = std::array<Vec3, 4>;
 
-/// Shares of a face's corners at (xi, eta) in the unit square.
-std::array<double, 4> corner_shares(double xi, double eta);
-
 double longest_edge(const FaceCorners& face);  ///< [m]
 double face_area(const FaceCorners& face);     ///< [m2]
 

@@ -149,10 +149,6 @@ void add_items(TieSums& sums, const LinkedLine& line, const SweptBlock& own, con
   }
 }
 
-std::int64_t slot_of(std::int64_t unknown) {
-  return unknown / (3 * kLanes) * kLanes + unknown % kLanes;
-}
-
 /// Calls visit(own slot, other slot, weight) for every link with a weight.
 template <class Visit>
 void for_each_link(const TieSums& sums, const Visit& visit) {

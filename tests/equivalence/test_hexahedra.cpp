@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -96,7 +97,7 @@ TEST(Hexahedra, ForceIsThatOfTheSweptPath) {
           paths.swept->set_finite_rotation(0, finite_rotation);
           paths.general->set_finite_rotation(finite_rotation);
           paths.swept->set_beta(0, beta);
-          paths.general->set_beta(beta);
+          paths.general->set_damping(beta);
           AlignedVector<double> expected(u.size());
           paths.swept->internal_force(u.data(), v.data(), expected.data());
           const std::vector<double> at = cartesian_values(paths.block(), u);
@@ -244,13 +245,11 @@ TEST(AlongMotion, IsExactForAParabolaOnBricksOfTwoLengths) {
   EXPECT_EQ(between, 6);
 }
 
-TEST(Hexahedra, RowsHoldElementsThatShareFaces) {
-  HexMesh mesh = hexahedra_of(samples::extruded());
-  turn_numbering(mesh);
+/// Rows of a mesh. Each element stands in a row or in the rest, once, and between nodes of its own.
+std::vector<ElementRow> checked_rows(const HexMesh& mesh) {
   std::vector<std::int32_t> all(mesh.elements.size()), rest;
   std::iota(all.begin(), all.end(), 0);
-  const std::vector<ElementRow> rows = find_rows(mesh, all, rest);
-  ASSERT_GT(rows.size(), 4U);
+  std::vector<ElementRow> rows = find_rows(mesh, all, rest);
   std::vector<std::int32_t> found = rest;
   for (const ElementRow& row : rows)
     for (std::size_t i = 0; i < 8; ++i) {
@@ -268,6 +267,61 @@ TEST(Hexahedra, RowsHoldElementsThatShareFaces) {
     }
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, all);
+  return rows;
+}
+
+TEST(Hexahedra, RowsHoldElementsThatShareFaces) {
+  HexMesh mesh = hexahedra_of(samples::extruded());
+  turn_numbering(mesh);
+  EXPECT_GT(checked_rows(mesh).size(), 4U);
+}
+
+/// A single line of elements: a tail, an element, a loop about a hole, the same element crosswise, a tail.
+/// `length`: elements of the loop and of either tail.
+HexMesh curled_line(int length) {
+  using Edge = std::array<std::int32_t, 2>;
+  HexMesh mesh;
+  mesh.parts = {"curl"};
+  const auto node = [&](double x, double y) {  // and the node above it
+    mesh.nodes.insert(mesh.nodes.end(), {Vec3{x, y, 0}, Vec3{x, y, 1}});
+    return static_cast<std::int32_t>(mesh.nodes.size()) - 2;
+  };
+  const auto join = [&](const std::vector<Edge>& edges) {
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      const auto [a, b] = edges[i - 1];
+      const auto [d, c] = edges[i];
+      mesh.elements.push_back({a, b, c, d, a + 1, b + 1, c + 1, d + 1});
+      mesh.part.push_back(0);
+    }
+  };
+  const auto tail = [&](const Edge& root, double side) {
+    std::vector<Edge> edges = {root};
+    for (int i = 1; i <= length; ++i) {
+      Edge& edge = edges.emplace_back();
+      for (std::size_t k = 0; k < 2; ++k)
+        edge[k] = node(mesh.nodes[index(root[k])].x + 0.7 * i, mesh.nodes[index(root[k])].y + 0.8 * side * i);
+    }
+    return edges;
+  };
+  std::vector<Edge> loop;
+  for (int i = 0; i <= length; ++i) {
+    const double inner = 2 * std::numbers::pi * i / length;
+    const double outer = 0.4 + (2 * std::numbers::pi - 0.8) * i / length;
+    loop.push_back({i < length ? node(std::cos(inner), std::sin(inner)) : loop[0][0],
+                    node(2 * std::cos(outer), 2 * std::sin(outer))});
+  }
+  const std::int32_t tip = node(2.7, 0);
+  std::vector<Edge> line = tail({loop.back()[1], tip}, -1);
+  std::reverse(line.begin(), line.end());
+  line.insert(line.end(), loop.begin(), loop.end());
+  join(line);
+  join(tail({loop.front()[1], tip}, 1));
+  return mesh;
+}
+
+TEST(Hexahedra, RowsOfALineThatCrossesItselfHoldAnElementOnce) {
+  // The element where the line crosses itself comes twice within eight, or in two eights.
+  for (const int length : {3, 7}) checked_rows(curled_line(length));
 }
 
 TEST(Hexahedra, SameBitsForAnyNumberOfThreads) {

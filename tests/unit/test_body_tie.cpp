@@ -25,7 +25,7 @@ const FaceCorners kWarped = {Vec3{0, 0, 0}, {1, 0, 0.2}, {1.1, 0.9, 0}, {0, 1, 0
 TEST(FaceFinder, FindsThePointOverWhichOneStands) {
   const FaceFinder finder({kWarped}, 0.5);
   for (const auto& [xi, eta] : {std::pair(0.3, 0.7), {0.9, 0.1}, {0.5, 0.5}}) {
-    const std::array<double, 4> share = corner_shares(xi, eta);
+    const std::array<double, 4> share = QuadPlace{xi, eta}.weights();
     Vec3 at;
     for (std::size_t k = 0; k < 4; ++k) at += share[k] * kWarped[k];
     const Vec3 along_xi = (1 - eta) * (kWarped[1] - kWarped[0]) + eta * (kWarped[2] - kWarped[3]);

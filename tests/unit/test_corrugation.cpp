@@ -175,5 +175,20 @@ TEST(Corrugation, AMapKeepsItsOwnShapeAcross) {
   EXPECT_TRUE(first_difference(map, other, 3, 0.5e-6));
 }
 
+TEST(Corrugation, ADifferenceInOneRowOfAMapIsFound) {
+  const std::vector<double> x = {0, 1e-3, 2e-3};
+  std::vector<double> y;
+  for (int j = -40; j <= 40; ++j) y.push_back(0.5e-3 * j);
+  const std::vector<double> flat(x.size() * y.size(), 0.0);
+  const auto placed = [&](const std::vector<double>& depth) {
+    return Corrugation(measured_map(x, y, depth, 1e-3), 2.4, 1e-3, 20e-3);
+  };
+  for (std::size_t row = 1; row + 1 < y.size(); ++row) {
+    std::vector<double> dented = flat;
+    dented[row * x.size() + 1] = 50e-6;
+    EXPECT_TRUE(first_difference(placed(flat), placed(dented), 2.41, 1e-9)) << row;
+  }
+}
+
 }  // namespace
 }  // namespace tread

@@ -72,7 +72,7 @@ double EnergySums::half_step_excess(ConstNodeField force, double dt, const TileS
     double sum = 0;
     for (auto at = std::lower_bound(unforced_.begin(), unforced_.end(), 3 * first_slot);
          at != unforced_.end() && *at < 3 * end_slot; ++at)
-      sum += mobility(*at / (3 * kLanes) * kLanes + *at % kLanes) * square(force[*at]);
+      sum += mobility(slot_of(*at)) * square(force[*at]);
     return sum;
   };
   auto sum = sum_tiles<double>(model_->mesh, all_, share, [&](int number, int tile) {

@@ -20,9 +20,7 @@ namespace {
 std::map<std::int64_t, int> held_directions(const DeckModel& deck) {
   std::map<std::int64_t, int> directions;
   for (const std::int64_t unknown : deck.model().restrained) {
-    const std::int64_t slot = unknown / (3 * kLanes) * kLanes + unknown % kLanes;
-    const auto component = static_cast<int>(unknown / kLanes % 3);
-    directions[deck.node(slot)] |= 1 << component;
+    directions[deck.node(slot_of(unknown))] |= 1 << component_of(unknown);
   }
   return directions;
 }
