@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "drivers/engine/beam/beam_passage.hpp"
@@ -75,6 +76,27 @@ ForceHistory rolled_on_beam(const MotionSpec& motion, const BeamVehicle& vehicle
   return curve;
 }
 
+/// F_N of both over the way, with the places of the fastenings and the static `load` [N].
+Figure passing_figure(const Scene& scene, const ForceHistory& ours, const ForceHistory& theory, double load) {
+  const double last = scene.motion->speed * scene.motion->duration;
+  Series curve{"tread", {}, {}, Stroke::solid};
+  Series reference{"beam model", {}, {}, Stroke::dashed};
+  for (const auto& [from, to] : {std::pair{&ours, &curve}, std::pair{&theory, &reference}}) {
+    to->x = from->x;
+    for (const double force : from->force) to->y.push_back(1e-3 * force);
+  }
+  Figure figure;
+  figure.title = "Contact force on the smooth rail";
+  figure.x_label = "Position of the wheel [m]";
+  figure.panels = {{"F_N [kN]", {curve, reference}, {{1e-3 * load, "static"}}, 260, std::nullopt}};
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = 0; i < f.count; ++i) {
+    const double x = f.first + i * f.spacing - scene.rail->origin;
+    if (x > 0 && x < last) figure.positions.push_back({x, i % 2 == 0 ? "fastening" : ""});
+  }
+  return figure;
+}
+
 CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& progress) {
   const Scene scene = passage_scene(inputs);
   Model model(scene);
@@ -110,23 +132,14 @@ CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& pro
        100 * b.amplitude[1] / load,
        {}},
       {"mean of F_N over both spans", "kN", 1e-3 * a.mean, 1e-3 * load, 0.01}};
+  // The beam feels the fastenings more: its strip spreads short waves too little.
+  // [docs/records/verification.md]
+  if (inputs.defaults())
+    for (const auto& [finding, difference] : {std::pair{0, -0.12}, std::pair{3, -0.08}})
+      result.findings.push_back(
+          beside_record(result.findings[static_cast<std::size_t>(finding)], difference, 0.03));
 
-  Series curve{"tread", {}, {}, Stroke::solid};
-  Series reference{"beam model", {}, {}, Stroke::dashed};
-  for (const auto& [from, to] : {std::pair{&ours, &curve}, std::pair{&theory, &reference}}) {
-    to->x = from->x;
-    for (const double force : from->force) to->y.push_back(1e-3 * force);
-  }
-  Figure figure;
-  figure.title = "Contact force on the smooth rail";
-  figure.x_label = "Position of the wheel [m]";
-  figure.panels = {{"F_N [kN]", {curve, reference}, {{1e-3 * load, "static"}}, 260, std::nullopt}};
-  const FasteningSpec& f = *scene.fastenings;
-  for (int i = 0; i < f.count; ++i) {
-    const double x = f.first + i * f.spacing - scene.rail->origin;
-    if (x > 0 && x < last) figure.positions.push_back({x, i % 2 == 0 ? "fastening" : ""});
-  }
-  result.figures.push_back(figure);
+  result.figures.push_back(passing_figure(scene, ours, theory, load));
   return result;
 }
 

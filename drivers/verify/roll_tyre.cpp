@@ -73,7 +73,7 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   rolled.slip_fraction =
       mean([](const Sample& a) { return a.patch_area > 0 ? a.slip_area / a.patch_area : 0.0; });
   const auto start = std::find_if(s.begin(), s.end(), [&](const Sample& a) { return a.wheel_x >= first; });
-  rolled.work_creepage = creepage_of_work(s, first, s.back().wheel_x).value_or(0);
+  rolled.work_creepage = creepage_of_work(s, first, s.back().wheel_x, model.wheel_radius()).value_or(0);
   rolled.lead_loss = (s.back().energy.contact_loss - start->energy.contact_loss) /
                      (s.back().energy.frictional_work - start->energy.frictional_work);
   rolled.energy_residual = std::abs(s.back().energy.residual) / s.back().energy.frictional_work;

@@ -22,7 +22,7 @@ struct Rolled {
   double force_deviation = 0;  ///< standard deviation of F_L / mean [-]
   double creepage = 0;         ///< mean creepage of 28 nodes less that of free rolling [-]
   double free_creepage = 0;    ///< [-]
-  double work_creepage = 0;    ///< frictional work / (F_L x way) [-]
+  double work_creepage = 0;    ///< of the frictional work, eq. (13a) [-]
   double slip_fraction = 0;    ///< [-]
   double lead_loss = 0;        ///< loss by the lead of the contact forces, over the frictional work [-]
   double energy_residual = 0;  ///< residual of the energy over the frictional work [-]

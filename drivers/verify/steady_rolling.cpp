@@ -80,7 +80,7 @@ ShearPeak largest_shear(const HalfSpace& half_space, double size, double y) {
 
 /// Values of the half-space.
 struct SteadyReference {
-  double creepage = 0;
+  half_space::SteadyCreepage creepage;
   double slip_fraction = 0;
   double slip_length = 0;  ///< length of the slip zone on the axis [m]
   double max_shear = 0;    ///< shear on the axis, mean over a box of the element's size [Pa]
@@ -104,14 +104,11 @@ double row_aside(const TyreOnBlock& bodies) {
 }
 
 SteadyReference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, double force) {
-  const HertzPatch patch = bodies.hertz_patch();
   const double h = bodies.element_size;
   SteadyReference reference;
   reference.creepage =
-      half_space::extrapolated_summary({half_space.influence.material, bodies.radius, bodies.crown_radius,
-                                        bodies.load, bodies.friction, force, h},
-                                       std::min(patch.semi_axis_x, patch.semi_axis_y) / 11)
-          .creepage;
+      half_space::steady_creepage({half_space.influence.material, bodies.radius, bodies.crown_radius,
+                                   bodies.load, bodies.friction, force});
   reference.slip_fraction = half_space.state.slip_fraction;
   reference.slip_length = slip_length(half_space);
   reference.work = half_space::centre_element_work(half_space.grid(), half_space.state, h) / (h * h);
@@ -121,7 +118,7 @@ SteadyReference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_sp
   reference.von_mises = half_space::largest_box_stress(
       {half_space.grid(), half_space.contact.pressure, half_space.state.tractions,
        bodies.elastic.rail.poissons_ratio},
-      {box.x, 0.5 * h - row_aside(bodies), 0, h, h, h}, 0.5 * patch.semi_axis_x);
+      {box.x, 0.5 * h - row_aside(bodies), 0, h, h, h}, 0.5 * bodies.hertz_patch().semi_axis_x);
   return reference;
 }
 
@@ -168,7 +165,9 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
   CaseResult result;
   result.findings = {
       {"F_L / F_N", "-", rolled.force / rolled.normal_force, mu, 0.02},
-      {"creepage less free rolling", "%", 100 * rolled.creepage, 100 * reference.creepage, 0.08 * fineness},
+      {"creepage less free rolling", "%", 100 * rolled.creepage, 100 * reference.creepage.mean,
+       0.08 * fineness},
+      {"standard error of the half-space's creepage / creepage", "-", reference.creepage.error, 0, {}, true},
       in_slip_zone(
           0.1, {"creepage from the frictional work", "%", 100 * rolled.work_creepage, 100 * rolled.creepage}),
       {"slip area / patch area", "-", rolled.slip_fraction, reference.slip_fraction, 0.05 * fineness, true},
@@ -187,7 +186,8 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
       {"lost by the lead of the contact forces / frictional work", "-", rolled.lead_loss, 0, {}, true},
       {"energy residual / frictional work", "-", rolled.energy_residual, 0, 0.01, true}};
   add_dundurs(bodies, result);
-  result.figures = {shear_figure(bodies, rolled, half_space), creepage_figure(rolled, reference.creepage)};
+  result.figures = {shear_figure(bodies, rolled, half_space),
+                    creepage_figure(rolled, reference.creepage.mean)};
   return result;
 }
 

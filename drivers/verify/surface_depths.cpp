@@ -38,7 +38,13 @@ const std::vector<SurfaceCase>& shapes() {
   return kShapes;
 }
 
-half_space::NormalContact reference(const TyreOnBlock& bodies, const Scene& scene) {
+/// Half-spaces under pressure and the pressure's middle.
+struct PressedDepths {
+  half_space::NormalContact contact;
+  double x = 0, y = 0;  ///< [m]
+};
+
+PressedDepths reference(const TyreOnBlock& bodies, const Scene& scene) {
   constexpr int kCells = 14;  // of the smaller semi-axis
   const HertzPatch patch = bodies.hertz_patch();
   const RunningSurface rail = rail_surface(scene);
@@ -48,13 +54,22 @@ half_space::NormalContact reference(const TyreOnBlock& bodies, const Scene& scen
       half_space::centred_grid(4 * patch.semi_axis_x, 2.5 * patch.semi_axis_y,
                                std::min(patch.semi_axis_x, patch.semi_axis_y) / kCells),
       bodies.elastic.alike());
-  return half_space::press(
+  PressedDepths pressed{half_space::press(
       influence,
       [&](double x, double y) { return smooth(x, y) + rail.at(x, y).depth + wheel.at(x, y).depth; },
-      bodies.load);
+      bodies.load)};
+  const half_space::Grid& grid = influence.grid;
+  for (int k = 0; k < grid.size(); ++k) {
+    const double share =
+        pressed.contact.pressure[static_cast<std::size_t>(k)] * grid.dx * grid.dy / pressed.contact.load;
+    pressed.x += share * grid.x(k % grid.nx);
+    pressed.y += share * grid.y(k / grid.nx);
+  }
+  return pressed;
 }
 
 CaseResult surface_depths(const VerifyInputs& inputs, const ProgressText& progress) {
+  constexpr double kMiddle = 0.1;  // [mm], as in profiles_in_contact
   const TyreOnBlock bodies = tyre_of(inputs, false);
   CaseResult result;
   for (const SurfaceCase& shape : shapes()) {
@@ -66,7 +81,8 @@ CaseResult surface_depths(const VerifyInputs& inputs, const ProgressText& progre
     Model model(scene);
     progress(shape.name);
     const Preload preload = solve_preload(model, {}, progress);
-    const half_space::NormalContact theory = reference(bodies, scene);
+    const PressedDepths pressed = reference(bodies, scene);
+    const half_space::NormalContact& theory = pressed.contact;
     const std::string name = shape.name;
     const auto bound = [&](double share) {
       return shape.edged ? std::nullopt : std::optional(share * bodies.fineness());
@@ -78,6 +94,13 @@ CaseResult surface_depths(const VerifyInputs& inputs, const ProgressText& progre
         {name + ": patch area", "mm2", 1e6 * preload.contact.area, 1e6 * theory.area, bound(0.05)});
     result.findings.push_back(
         {name + ": F_N", "kN", -1e-3 * preload.contact.force_on_rail.z, 1e-3 * bodies.load, 1e-5});
+    // A mirrored surface moves the middle of a dip or a dent by millimetres.
+    const auto middle = shape.edged || bodies.grid_offset != 0 ? std::nullopt : std::optional(kMiddle);
+    const Vec3& centre = preload.contact.centre;
+    result.findings.push_back(
+        {name + ": middle of the pressure along", "mm", 1e3 * centre.x, 1e3 * pressed.x, middle, true});
+    result.findings.push_back(
+        {name + ": middle of the pressure across", "mm", 1e3 * centre.y, 1e3 * pressed.y, middle, true});
   }
   return result;
 }

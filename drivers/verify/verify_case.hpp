@@ -29,11 +29,14 @@ class VerifyInputs {
   explicit VerifyInputs(std::vector<VerifyInput> inputs) : inputs_(std::move(inputs)) {}
   /// Reads "name=value". Returns false if the case has no such input. Throws InputError for a wrong value.
   bool set(std::string_view name, std::string_view value);
+  /// Returns true if no input was set.
+  bool defaults() const { return !changed_; }
   double operator[](std::string_view name) const;
   const std::vector<VerifyInput>& all() const { return inputs_; }
 
  private:
   std::vector<VerifyInput> inputs_;
+  bool changed_ = false;
 };
 
 /// A computed quantity beside its reference.
@@ -52,6 +55,11 @@ struct Finding {
 /// `finding` judged by the elements across a slip zone: the bound is `factor` times element [m] over width
 /// [m]. A zone narrower than an element is not resolved: no bound, and the quantity says so.
 Finding judged_by_slip_zone(Finding finding, double factor, double element, double width);
+
+/// `finding` against its reference changed by the difference of the two models that the records state, as a
+/// share of the reference or, if the finding is absolute, in its unit. For inputs that the records hold
+/// alone.
+Finding beside_record(Finding finding, double difference, double bound);
 
 /// Returns true if `act` throws an InputError whose text holds all `parts`.
 bool refused(const std::function<void()>& act, const std::vector<std::string>& parts = {});

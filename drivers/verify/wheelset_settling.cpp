@@ -1,5 +1,6 @@
-// The standing half wheelset after a step of load: an overdamped motion without overshoot. The reference is a
-// wheelset that bends in its static shape, on a Hertz spring over the beam on equal fastenings.
+// The standing half wheelset after a step of load: an oscillation at about half of critical damping. The
+// reference is a wheelset that bends in its static shape, on a Hertz spring over the beam on equal
+// fastenings.
 
 #include <fmt/core.h>
 
@@ -168,6 +169,11 @@ CaseResult wheelset_settling(const VerifyInputs& inputs, const ProgressText& pro
       {"time to half of the last value", "ms", 1e3 * rise(ours, 0.5), 1e3 * rise(theory, 0.5), 0.05},
       {"time to nine tenths of it", "ms", 1e3 * rise(ours, 0.9), 1e3 * rise(theory, 0.9), 0.1},
       {"overshoot / last value", "-", overshoot(ours), overshoot(theory), 0.05, true}};
+  // The solid wheelset on its rail is damped more than the beam model. [docs/records/verification.md]
+  if (inputs.defaults()) {
+    result.findings.push_back(beside_record(result.findings[1], 0.2, 0.03));
+    result.findings.push_back(beside_record(result.findings[5], -0.038, 0.01));
+  }
   Series curve{"tread", {}, {}, Stroke::solid};
   Series reference{"beam model", {}, {}, Stroke::dashed};
   for (std::size_t i = 0; i < ours.size(); ++i) {

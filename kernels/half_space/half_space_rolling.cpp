@@ -101,7 +101,7 @@ std::vector<double> RollingContact::Problem::displace(const std::vector<double>&
 }
 
 RollingContact::RollingContact(const Influence& influence, const NormalContact& contact,
-                               double friction_coefficient)
+                               double friction_coefficient, SteadySlip slip)
     : influence_(influence), contact_(contact), friction_(friction_coefficient) {
   const Grid& grid = influence.grid;
   for (int j = 0; j < grid.ny; ++j) {
@@ -119,10 +119,16 @@ RollingContact::RollingContact(const Influence& influence, const NormalContact& 
           "half-space reference: rolling needs a free cell before and behind the contact; take a larger "
           "grid");
   }
+  const double second_order = slip == SteadySlip::at_the_centre ? 0.5 : 0;
   const auto rate = [&](const OffsetTable& table) {
-    OffsetTable r(grid.nx - 1, grid.ny - 1);
+    const int reach = grid.nx - 2;  // the outermost columns are free
+    OffsetTable r(reach, grid.ny - 1);
     for (int dj = 1 - grid.ny; dj < grid.ny; ++dj)
-      for (int di = 1 - grid.nx; di < grid.nx; ++di) r.at(di, dj) = table.at(di, dj) - table.at(di + 1, dj);
+      for (int di = -reach; di <= reach; ++di) {
+        const double ahead_of = table.at(di + 1, dj);
+        const double lost = table.at(di, dj) - ahead_of;
+        r.at(di, dj) = lost + second_order * (lost - (ahead_of - table.at(di + 2, dj)));
+      }
     return r;
   };
   rate_xx_ = rate(influence.xx);

@@ -33,6 +33,10 @@ struct FrictionState {
   std::vector<double> strips;  ///< ny works per passage of a surface point of row j [J/m2]; rolling only
 };
 
+/// Slip of steady rolling: its mean over the cell that a particle rolls in a step, as in CONTACT, or at the
+/// cell's centre by backward differences of second order, whose work is not exactly creepage * force.
+enum class SteadySlip { over_a_cell, at_the_centre };
+
 /// Rolling contact; a step rolls by one cell. Work is the mean of the tractions before and after the step
 /// times its slip. The step in which a particle leaves the contact counts too: in the steady state work =
 /// creepage * force.
@@ -40,7 +44,8 @@ class RollingContact {
  public:
   /// `influence` and `contact` belong together and must outlive this object. The contact must leave a free
   /// column of cells before and behind it.
-  RollingContact(const Influence& influence, const NormalContact& contact, double friction_coefficient);
+  RollingContact(const Influence& influence, const NormalContact& contact, double friction_coefficient,
+                 SteadySlip slip = SteadySlip::over_a_cell);
 
   /// State without tractions: the start of a history.
   FrictionState free_state() const;
@@ -73,7 +78,7 @@ class RollingContact {
   double friction_;
   std::vector<int> cells_;                   ///< cells in contact
   std::vector<Run> runs_;                    ///< runs that hold the cells in contact
-  OffsetTable rate_xx_, rate_xy_, rate_yy_;  ///< displacement at a cell minus that one cell ahead [m/Pa]
+  OffsetTable rate_xx_, rate_xy_, rate_yy_;  ///< of steady rolling: displacement lost in a cell's way [m/Pa]
 };
 
 }  // namespace tread::half_space

@@ -1,10 +1,14 @@
 #include "kernels/half_space/half_space_steady.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "core/error.hpp"
 #include "core/math/hertz.hpp"
+#include "core/math/statistics.hpp"
+#include "core/parallel/each_item.hpp"
 
 namespace tread::half_space {
 
@@ -18,41 +22,54 @@ double centre_element_work(const Grid& grid, const FrictionState& state, double 
   return sum * element;
 }
 
-SteadySummary steady_summary(const SteadyCase& steady, double cell) {
+namespace {
+
+/// Creepage on cells of semi-axis / `cells` along x, and of eight times that share of the semi-axis across.
+double creepage_on_grid(const SteadyCase& steady, double cells) {
   const Material& m = steady.material;
-  const double modulus = contact_modulus(m.youngs_modulus, m.poissons_ratio);
-  const HertzPatch patch = hertz(steady.radius_x, steady.radius_y, modulus, steady.load);
-  const double margin = 2 * cell;
-  const Influence influence(centred_grid(patch.semi_axis_x + margin, patch.semi_axis_y + margin, cell), m);
+  const HertzPatch patch = hertz(steady.radius_x, steady.radius_y,
+                                 contact_modulus(m.youngs_modulus, m.poissons_ratio), steady.load);
+  const double dx = patch.semi_axis_x / cells;
+  const double dy = 8 * patch.semi_axis_y / cells;
+  const auto count = [](double half, double cell) { return 2 * static_cast<int>(half / cell + 2) + 1; };
+  const int nx = count(patch.semi_axis_x, dx);
+  const int ny = count(patch.semi_axis_y, dy);
+  const Influence influence({nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy}, m);
   const NormalContact contact =
       press(influence, quadratic_gap(steady.radius_x, steady.radius_y), steady.load);
-  const RollingContact rolling(influence, contact, steady.friction_coefficient);
-  const FrictionState state = rolling.steady(steady.force);
-  return {state.creepage, state.slip_fraction, state.max_shear, state.work,
-          centre_element_work(influence.grid, state, steady.element)};
+  return RollingContact(influence, contact, steady.friction_coefficient, SteadySlip::at_the_centre)
+      .steady(steady.force)
+      .creepage;
 }
 
-SteadySummary extrapolated_summary(const SteadyCase& steady, double cell) {
-  constexpr int kGrids = 12;
-  std::vector<double> size;
-  std::vector<SteadySummary> summary;
-  for (int i = 0; i < kGrids; ++i) {
-    size.push_back(cell * std::exp2(-i / (kGrids - 1.0)));
-    summary.push_back(steady_summary(steady, size.back()));
-  }
-  double mean = 0;
-  for (const double h : size) mean += h / kGrids;
-  double spread = 0;
-  for (const double h : size) spread += (h - mean) * (h - mean);
-  // Value at size 0 of the line of least squares.
-  const auto limit = [&](double SteadySummary::*value) {
-    double sum = 0;
-    for (std::size_t i = 0; i < kGrids; ++i)
-      sum += summary[i].*value * (1.0 / kGrids - mean * (size[i] - mean) / spread);
-    return sum;
-  };
-  return {limit(&SteadySummary::creepage), limit(&SteadySummary::slip_fraction),
-          limit(&SteadySummary::max_shear), limit(&SteadySummary::work), limit(&SteadySummary::element_work)};
+}  // namespace
+
+SteadyCreepage mean_of_grids(const std::vector<std::optional<double>>& grids) {
+  std::vector<double> found;
+  for (const std::optional<double>& creepage : grids)
+    if (creepage) found.push_back(*creepage);
+  if (found.size() < kLeastGrids)
+    throw NumericalError(fmt::format(
+        "half-space reference: the creepage of steady rolling converges on {} of {} grids, and {} must; "
+        "lower the traction coefficient, or raise that of friction",
+        found.size(), grids.size(), kLeastGrids));
+  const Statistics values = statistics(found);
+  const double count = static_cast<double>(found.size());
+  return {values.mean, values.deviation / (std::sqrt(count - 1) * std::abs(values.mean))};
+}
+
+SteadyCreepage steady_creepage(const SteadyCase& steady) {
+  constexpr std::size_t kGrids = 12;
+  constexpr double kCoarsest = 22;  // cells along a semi-axis
+  std::vector<std::optional<double>> grids(kGrids);
+  each_item(kGrids, [&](std::size_t i) {
+    const double cells = kCoarsest * std::exp2(static_cast<double>(i) / (kGrids - 1.0));
+    try {
+      grids[i] = creepage_on_grid(steady, cells);
+    } catch (const NumericalError&) {  // others may converge
+    }
+  });
+  return mean_of_grids(grids);
 }
 
 }  // namespace tread::half_space

@@ -22,5 +22,15 @@ TEST(SlipZone, NarrowerThanAnElementIsNotResolved) {
   EXPECT_EQ(finding.quantity, "work, not resolved: 0.50 elements slip");
 }
 
+TEST(BesideRecord, JudgesTheDistanceFromTheRecordedDifference) {
+  const Finding finding = beside_record({"force", "%", 2.1, 2.4, 0.15}, -0.12, 0.03);
+  EXPECT_EQ(finding.quantity, "force, against the reference -12 %");
+  EXPECT_DOUBLE_EQ(finding.reference, 0.88 * 2.4);
+  EXPECT_TRUE(finding.pass());
+  const Finding overshoot = beside_record({"overshoot", "-", 0.08, 0.08, 0.05, true}, -0.04, 0.01);
+  EXPECT_DOUBLE_EQ(overshoot.reference, 0.04);
+  EXPECT_FALSE(overshoot.pass());
+}
+
 }  // namespace
 }  // namespace tread

@@ -11,6 +11,7 @@
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/engine/start/step_limit.hpp"
 #include "drivers/engine/start/traction.hpp"
+#include "kernels/half_space/half_space_steady.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -103,12 +104,29 @@ TEST(TractionStart, StatesTheCreepage) {
   EXPECT_GT(creepage, 1e-4);
   EXPECT_LT(creepage, 5e-3);
   EXPECT_EQ(start_creepage(model, -0.2), -creepage);
+  const half_space::SteadyCreepage theory = half_space::steady_creepage(
+      {model.scene.elastic_pair().alike(), model.wheel_radius(), model.hertz_radius_y, model.wheel_load(),
+       model.contact->friction_at_rest(model.scene.start_x()), 0.2 * model.wheel_load()});
+  EXPECT_DOUBLE_EQ(creepage, theory.mean);
   Scene slippery = scene_of(0.15);
   slippery.contact->friction_law = "table";
   slippery.contact->friction_x = {0, 1};
   slippery.contact->friction_at_x = {0.2, 0.5};
   EXPECT_GT(start_creepage(Model(slippery), 0.15), 1.1 * start_creepage(model, 0.15));
   EXPECT_EQ(start_creepage(Model(scene_of(0.2, {"motion.creepage=0.001"})), 0.2), 0.001);
+}
+
+TEST(TractionStart, NamesTheKeysWhereNoCreepageIsFound) {
+  try {
+    start_creepage(Model(scene_of(0.2)), 0.51);
+    FAIL() << "slides";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("on contact.friction = 0.5 is not found"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("state motion.creepage, a smaller motion.traction.mu"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 /// A nearly flat gap has an ellipse of Hertz that is wider than the bodies, which bear the load as a line.

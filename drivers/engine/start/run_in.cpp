@@ -129,7 +129,7 @@ double difference(std::span<const double> one, std::span<const double> other) {
 }  // namespace
 
 RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
-  constexpr double kTime = 0.08;  // ten times what the overdamped wheel on the paper's track takes [s]
+  constexpr double kTime = 0.08;  // ten times 1 / (zeta w), about 8 ms, of the wheel on the paper's track [s]
   constexpr int kLeastSpans = 4;
   constexpr int kMostSpans = 80;
   constexpr double kSettled = 1e-3;  // of the load

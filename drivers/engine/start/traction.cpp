@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -65,7 +64,6 @@ double steady_traction(const Model& model) {
 }
 
 double start_creepage(const Model& model, double traction) {
-  constexpr double kCells = 11;  // in the shorter semi-axis
   const double stated = model.scene.motion ? model.scene.motion->creepage : 0;
   if (stated != 0 || traction == 0) return stated;
   const double load = model.wheel_load();
@@ -76,15 +74,18 @@ double start_creepage(const Model& model, double traction) {
         line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(), load / width);
     return std::copysign(friction * semi_axis / model.wheel_radius() * (1 - sticking), traction);
   }
-  const double cell = std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y) / kCells;
-  const half_space::SteadyCase rolling{model.scene.elastic_pair().alike(),
-                                       model.wheel_radius(),
-                                       model.hertz_radius_y,
-                                       load,
-                                       friction,
-                                       std::abs(traction) * load,
-                                       cell};
-  return std::copysign(half_space::steady_summary(rolling, cell).creepage, traction);
+  try {
+    const half_space::SteadyCreepage steady =
+        half_space::steady_creepage({model.scene.elastic_pair().alike(), model.wheel_radius(),
+                                     model.hertz_radius_y, load, friction, std::abs(traction) * load});
+    return std::copysign(steady.mean, traction);
+  } catch (const NumericalError& error) {
+    throw InputError(fmt::format(
+        "motion.traction.ramp = 0: the creepage of a wheel that has long been rolling under F_L / F_N = "
+        "{:.4g} on contact.friction = {:.4g} is not found ({}); state motion.creepage, a smaller "
+        "motion.traction.mu or torque, or a ramp above 0",
+        traction, friction, error.what()));
+  }
 }
 
 }  // namespace tread

@@ -17,7 +17,7 @@ void require_grip(const Model& model, double traction);
 double steady_traction(const Model& model);
 
 /// Creepage at the start [-]: the scene's; or, under a traction, that of steady rolling on half-spaces under
-/// the static load.
+/// the static load. InputError if none is found there.
 double start_creepage(const Model& model, double traction);
 
 }  // namespace tread
