@@ -11,14 +11,16 @@ namespace tread {
 std::pair<double, double> ContactSpec::friction_range() const {
   if (friction_law == "coulomb") return {friction, friction};
   if (friction_law == "falling") return {friction_fast, friction};
-  if (friction_law != "table")
-    throw InputError(fmt::format(
-        "contact.friction_law = \"{}\": no least and largest coefficient of friction are known of it; state "
-        "\"coulomb\", \"table\" or \"falling\"",
-        friction_law));
+  if (friction_law != "table") refuse_friction_law();
   if (friction_at_x.empty()) return {friction, friction};
   const auto [least, largest] = std::minmax_element(friction_at_x.begin(), friction_at_x.end());
   return {*least, *largest};
+}
+
+void ContactSpec::refuse_friction_law() const {
+  throw InputError(
+      fmt::format("contact.friction_law = \"{}\": no such law; state \"coulomb\", \"table\" or \"falling\"",
+                  friction_law));
 }
 
 const Material& Scene::material(std::string_view name) const {

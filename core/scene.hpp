@@ -187,6 +187,8 @@ struct ContactSpec {
   double largest_friction() const { return friction_range().second; }
   /// The least that the law knows: all that a sliding patch may transmit [-].
   double least_friction() const { return friction_range().first; }
+  /// Throws the InputError for a law that does not exist.
+  [[noreturn]] void refuse_friction_law() const;
 
  private:
   std::pair<double, double> friction_range() const;  ///< InputError for a law without one

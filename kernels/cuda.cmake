@@ -37,6 +37,7 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/unused_card.txt CONTENT "${unused_ca
 if(NOT architectures)
   set(architectures 90)
 endif()
+set(TREAD_WITH_CUDA ${with_cuda} PARENT_SCOPE) # for those who link the installed engine [tread-config.cmake.in]
 set(targets "")
 foreach(architecture ${architectures})
   list(APPEND targets -gencode arch=compute_${architecture},code=[sm_${architecture},compute_${architecture}])
@@ -53,7 +54,7 @@ if(with_cuda)
   list(FILTER sources EXCLUDE REGEX "/no_gpu\\.cpp$")
   set_target_properties(tread_kernels PROPERTIES SOURCES "${sources}")
   target_sources(tread_kernels PRIVATE ${cuda_object})
-  target_link_libraries(tread_kernels PUBLIC $<BUILD_INTERFACE:CUDA::cudart_static>)
+  target_link_libraries(tread_kernels PUBLIC CUDA::cudart_static)
   message(STATUS "steps on NVIDIA's cards: ${architectures}")
 endif()
 

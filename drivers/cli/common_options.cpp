@@ -4,8 +4,8 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -34,10 +34,10 @@ void add_quality_option(CLI::App& command, std::string& quality, const char* tex
   command.add_option("-q,--quality", quality, text)->type_name("draft|standard|paper");
 }
 
-/// Returns true if a line of the file begins with the text.
+/// Returns true if a line of the file begins with the text. Throws InputError where it is no file of a scene.
 bool has_line(const std::string& file, std::string_view text) {
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);)
+  std::istringstream lines(load_scene_source(file).text);
+  for (std::string line; std::getline(lines, line);)
     if (line.starts_with(text)) return true;
   return false;
 }
@@ -170,9 +170,9 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
                   "threads of one run (default: its share of the cores that are idle when it begins)")
       ->check(at_least(1));
   add_device_option(command, options.device);
-  command.add_option(
-      "--launcher", options.launcher,
-      "words before each run's command, e.g. \"srun -N1 -n1\": runs begin all at once, elsewhere");
+  command.add_option("--launcher", options.launcher,
+                     "words before each run's command, e.g. \"srun -N1 -n1\": runs begin elsewhere, all at "
+                     "once unless -j or study.jobs states their number");
   command.add_option("--slurm", options.slurm,
                      "write a job array for sbatch to this file, and run nothing; points share no rolling");
   command.add_flag("--retry", options.retry, "run failed points again");

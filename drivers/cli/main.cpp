@@ -78,9 +78,31 @@ void say_origin() {
                                  tread::processor_name(), tread::machine_cores()));
 }
 
+/// Refuses a value that would count as not stated.
+std::string refusal_of_nothing(const std::string& value) {
+  return value.empty() ? "the value is empty; state one, or leave the option out" : "";
+}
+
+/// The words of the command line, "--name=" as the option "--name" and an empty value where the command has
+/// such an option: the parser would take its value from the next word.
+std::vector<std::string> with_empty_values(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  std::vector<std::string> words = {argv[0]};
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    for (const CLI::App* part : command->get_subcommands({}))
+      if (part->get_name() == word) command = part;
+    const std::string name = word.substr(0, word.size() - (word.ends_with('=') ? 1 : 0));
+    const CLI::Option* option = word.starts_with("--") ? command->get_option_no_throw(name) : nullptr;
+    const bool empty = name != word && option && option->get_items_expected_max() > 0;
+    words.push_back(empty ? name : word);
+    if (empty) words.emplace_back();
+  }
+  return words;
+}
+
 /// Refuses names that no file can have.
 std::string refusal_of_name(const std::string& name) {
-  if (name.empty()) return "the name is empty; state one, or leave the option out";
   constexpr std::size_t kLongest = 255;  // [B] of most file systems
   for (const std::filesystem::path& part : std::filesystem::path(name))
     if (part.native().size() > kLongest)
@@ -89,9 +111,12 @@ std::string refusal_of_name(const std::string& name) {
   return "";
 }
 
-/// Lets options that name a file or folder refuse names that none can have.
-void check_names(CLI::App& command) {
-  for (CLI::App* part : command.get_subcommands({})) check_names(*part);
+/// Lets options refuse empty values, and those that name a file or folder names that none can have.
+void check_values(CLI::App& command) {
+  for (CLI::App* part : command.get_subcommands({})) check_values(*part);
+  for (CLI::Option* option : command.get_options())
+    if (!option->get_positional() && option->get_items_expected_max() > 0)
+      option->check(CLI::Validator(refusal_of_nothing, ""));
   for (const char* named : {"--output", "--svg", "--slurm"})
     if (CLI::Option* option = command.get_option_no_throw(named))
       option->check(CLI::Validator(refusal_of_name, ""));
@@ -123,11 +148,14 @@ int run(int argc, char** argv) {
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);
   bool verbose = false;
   add_common_flags(app, verbose);
-  check_names(app);
+  check_values(app);
   require_command(app, argc, argv);
   const tread::Progress clock(false);
   try {
-    app.parse(argc, argv);
+    std::vector<const char*> stated;
+    const std::vector<std::string> all = with_empty_values(app, argc, argv);
+    for (const std::string& word : all) stated.push_back(word.c_str());
+    app.parse(static_cast<int>(stated.size()), stated.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     // A misspelt word may be why another one is missing.

@@ -7,7 +7,6 @@
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/man_page.hpp"
 #include "drivers/cli/shell_completion.hpp"
-#include "drivers/process/machine.hpp"
 #include "io/files/output_file.hpp"
 
 namespace tread {

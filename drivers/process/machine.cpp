@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <system_error>
 #include <thread>
 #include <utility>
 #ifdef __GLIBC__
@@ -88,15 +87,6 @@ std::int64_t peak_memory() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return 1024 * static_cast<std::int64_t>(usage.ru_maxrss);
-}
-
-void make_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error || !std::filesystem::is_directory(directory))
-    throw ResourceError(fmt::format("cannot create the output directory '{}': {}; choose another with -o",
-                                    directory.string(),
-                                    error ? error.message() : "a file of that name is there"));
 }
 
 }  // namespace tread

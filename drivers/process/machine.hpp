@@ -1,8 +1,7 @@
 #pragma once
-// Threads, memory and directories of the machine, as the commands need them.
+// Threads and memory of the machine, as the commands need them.
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,8 +33,5 @@ void give_back_large_arrays();
 
 /// Largest resident memory of this process so far [B].
 std::int64_t peak_memory();
-
-/// Creates the directory and its missing parents. Throws ResourceError.
-void make_directory(const std::filesystem::path& directory);
 
 }  // namespace tread

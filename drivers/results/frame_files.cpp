@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/process/machine.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/step_files.hpp"
@@ -207,7 +206,7 @@ void FrameFiles::copy(const Simulation& simulation) {
 
 void FrameFiles::begin() {
   if (std::exchange(begun_, true)) return;
-  make_directory(folder());
+  create_folder(folder());
   grid_ = make_vtk_grid(model_->mesh, frame_cells(model_->scene));
   write_vtk_mesh(folder() / mesh_name(grid_.kind), model_->mesh, grid_, resting_places(*model_),
                  root_attributes(model_->scene));
@@ -234,7 +233,7 @@ void FrameFiles::write_series() const {
   for (const std::int64_t steps : there())
     files.push_back(
         {{"name", step_file(kFolder, steps, kSuffix).string()}, {"time", static_cast<double>(steps) * dt_}});
-  show_text_file(directory_ / kSeries, json_text({{"file-series-version", "1.0"}, {"files", files}}));
+  write_text_file(directory_ / kSeries, json_text({{"file-series-version", "1.0"}, {"files", files}}));
 }
 
 std::vector<float> FrameFiles::points() const {
@@ -323,16 +322,16 @@ VtkArray FrameFiles::von_mises_stress() const {
 void FrameFiles::take_over(const fs::path& from, const fs::path& to, std::int64_t steps) {
   const std::vector<std::int64_t> there = steps_in(from / kFolder, kSuffix);
   if (there.empty() || there.front() > steps) return;
-  make_directory(to / kFolder);
+  create_folder(to / kFolder);
   const auto copy = [&](const fs::path& file) {
     const fs::path target = to / kFolder / file.filename();
-    const fs::path part = target.string() + ".part";
-    std::error_code error;
-    fs::copy_file(file, part, fs::copy_options::overwrite_existing, error);
-    if (!error) fs::rename(part, target, error);
-    if (error)
-      throw ResourceError(fmt::format("cannot copy {} to {}: {}; --set output.frames=0 leaves frames out",
-                                      file.string(), target.string(), error.message()));
+    replace_file(target, [&](const fs::path& part) {
+      std::error_code error;
+      fs::copy_file(file, part, fs::copy_options::overwrite_existing, error);
+      if (error)
+        throw ResourceError(fmt::format("cannot copy {} to {}: {}; --set output.frames=0 leaves frames out",
+                                        file.string(), target.string(), error.message()));
+    });
   };
   for (const VtkCells kind : {VtkCells::faces, VtkCells::elements})
     if (fs::exists(from / kFolder / mesh_name(kind))) copy(from / kFolder / mesh_name(kind));

@@ -87,6 +87,7 @@ std::string GrowingFiles::patch_bytes() {
 void GrowingFiles::close() {
   histories_.close();
   if (patch_) patch_->close();
+  for (const FileIdentity& file : identities_) force_to_disk(file.path());
 }
 
 }  // namespace tread

@@ -40,6 +40,7 @@ class GrowingFiles {
   /// Bytes of patch.h5 with all samples so far; empty without contact.
   std::string patch_bytes();
 
+  /// Closes the files and forces their data to the disk. Throws ResourceError.
   void close();
 
  private:

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Files by name or ending, with their content. [docs/reference/results.md]
-constexpr std::array<std::pair<std::string_view, std::string_view>, 23> kContents = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kContents = {{
     {"scene.resolved.toml", "every value of the scene with its source"},
     {"scene.files.json", "checksums of the files that the scene names"},
     {"status.json", "stage of the run"},
@@ -43,9 +43,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 23> kContent
     {"mesh.hdf", "mesh for ParaView"},
     {"sweep.csv", "a row a point"},
     {"dial.csv", "cost and error by point"},
+    {"dial.jsonl", "cost and error by point, an object a line"},
     {"effects.csv", "cost and error by setting"},
     {"numbers.csv", "the paper's numbers and ours"},
     {"growth.csv", "growth by wavelength"},
+    {"development.json", "growth and verdict"},
+    {"compare.json", "differences between a run and a curve"},
+    {"compare.html", "report of the comparison"},
     {"multibody.csv", "multi-body forces and deflections"},
     {"calibration.csv", "fit of the contact spring"},
     {"map.csv", "response over speed and wavelength"},
@@ -193,11 +197,16 @@ FolderState stated_in(const JsonRecord& status, bool ended) {
   return state;
 }
 
+/// Files of commands that leave no status: their results are there at once.
+constexpr std::array<const char*, 3> kWithoutStatus = {"summary.json", "compare.json", "levels.csv"};
+
 FolderState state_of(const fs::path& folder) {
+  const bool ended =
+      std::ranges::any_of(kWithoutStatus, [&](const char* name) { return fs::exists(folder / name); });
   const bool has_summary = fs::exists(folder / "summary.json");
   const bool resumable = CheckpointFolder(folder / kCheckpointFolder).holds_run();
   const bool worked_on = is_worked_on(folder);
-  FolderState state{has_summary ? "done" : "no status.json", has_summary};
+  FolderState state{ended ? "done" : "no status.json", ended};
   if (fs::exists(folder / "status.json")) {
     try {
       state = stated_in(read_json(folder / "status.json"), has_summary && !resumable && !worked_on);

@@ -3,12 +3,16 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "core/error.hpp"
 #include "drivers/process/standard_files.hpp"
+#include "drivers/run/point_state.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/text/json.hpp"
@@ -34,27 +38,72 @@ bool is_resumable(const std::filesystem::path& folder) {
   return CheckpointFolder(folder / kCheckpointFolder).holds_run();
 }
 
-/// End of a sentence on a folder without a process.
-std::string waiting_text(const std::filesystem::path& folder) {
-  return is_resumable(folder) ? fmt::format("; {} goes on with the run", resume_text(folder))
-                              : ", and no run waits there";
-}
-
-/// status.json as the last process left it, and the truth about the folder: a process that was killed still
-/// says there what it did. Throws Interrupted if no process works on a run that `tread resume` goes on with.
-void print_status(const std::filesystem::path& folder) {
+/// status.json as the last process left it. Throws InputError where there is none.
+Json read_status(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "status.json";
   Json status = Json::parse(read_text_file(file, kLargestStatus), nullptr, false);
   if (!status.is_object())
     throw InputError(fmt::format("{}: not a JSON object, so no status of a run", file.string()));
+  return status;
+}
+
+std::string text_at(const Json& object, const char* key) {
+  const Json none;
+  const Json& value = object.is_object() && object.contains(key) ? object[key] : none;
+  return value.is_string() ? value.get<std::string>() : "";
+}
+
+std::int64_t count_at(const Json& status, const char* key) {
+  return status.contains(key) && status[key].is_number_integer() ? status[key].get<std::int64_t>() : 0;
+}
+
+/// Points that a killed study says are running, and that no process works on, get the state of their folders.
+void correct_points(const std::filesystem::path& folder, Json& status) {
+  if (!status.contains("points") || !status["points"].is_array()) return;
+  for (Json& point : status["points"]) {
+    if (text_at(point, "state") != "running") continue;
+    const std::filesystem::path place = folder / text_at(point, "name");
+    std::error_code ignored;
+    if (std::filesystem::is_directory(place, ignored) && is_taken(place)) continue;
+    const char* state = name_of(state_left_in(place));
+    point["state"] = state;
+    status["running"] = count_at(status, "running") - 1;
+    status[state] = count_at(status, state) + 1;
+  }
+}
+
+/// The command that goes on with the run in the folder, or with the study that left the status; empty: none.
+std::string going_on(const std::filesystem::path& folder, const Json& status) {
+  if (is_resumable(folder)) return resume_text(folder);
+  if (count_at(status, "waiting") + count_at(status, "interrupted") + count_at(status, "running") == 0)
+    return "";
+  const std::string line = text_at(status, "command_line");
+  return line.empty() ? "the same command" : fmt::format("`{}`", line);
+}
+
+/// End of a sentence on a folder without a process.
+std::string waiting_text(const std::filesystem::path& folder) {
+  Json status = Json::object();
+  try {
+    status = read_status(folder);
+  } catch (const InputError&) {  // it may hold a run that has shown none
+  }
+  const std::string command = going_on(folder, status);
+  return command.empty() ? ", and no run waits there" : fmt::format("; {} goes on", command);
+}
+
+/// Prints the status and the truth about the folder: a process that was killed still says there what it did.
+/// Throws Interrupted if no process works on a run or study that a command goes on with.
+void print_status(const std::filesystem::path& folder) {
+  Json status = read_status(folder);
   const bool alive = is_taken(folder);
-  const bool resumable = !alive && is_resumable(folder);
+  if (!alive) correct_points(folder, status);
+  const std::string command = alive ? "" : going_on(folder, status);
   status["alive"] = alive;
-  status["resumable"] = resumable;
+  status["resumable"] = !command.empty();
   fmt::print("{}", json_text(status));
-  if (resumable)
-    throw Interrupted(
-        fmt::format("no process works on {}: {} goes on", folder.string(), resume_text(folder)));
+  if (!command.empty())
+    throw Interrupted(fmt::format("no process works on {}: {} goes on", folder.string(), command));
   if (!alive) print_error(fmt::format("tread: no process works on {}\n", folder.string()));
 }
 

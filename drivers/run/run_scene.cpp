@@ -69,6 +69,7 @@ void leave_static_patch(const Model& model, RunResults& results, const std::file
   PatchFile file(path, model.contact->nodes(), root_attributes(model.scene));
   file.append(0, x, model.contact->nodes());
   file.close();
+  force_to_disk(path);
   results.movie = read_patch(path, {x});
 }
 

@@ -7,8 +7,8 @@
 
 #include "core/parallel/ranks.hpp"
 #include "drivers/process/host.hpp"
-#include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
+#include "io/files/output_file.hpp"
 
 namespace tread {
 

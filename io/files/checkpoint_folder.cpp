@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -24,6 +25,15 @@ std::vector<std::int64_t> newest_first(const fs::path& folder) {
   std::vector<std::int64_t> found = steps_in(folder, kSuffix);
   std::reverse(found.begin(), found.end());
   return found;
+}
+
+/// Throws InputError where the folder is there and cannot be read.
+void require_readable(const fs::path& folder) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw InputError(fmt::format("cannot read {}: {}{}", folder.string(), error.message(),
+                                 error == std::errc::permission_denied ? "; change its permissions" : ""));
 }
 
 void remove_states(const fs::path& folder, const std::vector<std::int64_t>& all) {
@@ -94,6 +104,7 @@ bool CheckpointFolder::holds_run() const {
 
 std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused,
                                                                 const Check& check, std::int64_t last) const {
+  require_readable(folder_);
   for (const std::int64_t steps : newest_first(folder_)) {
     if (steps > last) continue;
     const fs::path path = step_file(folder_, steps, kSuffix);

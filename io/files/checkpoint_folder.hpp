@@ -49,7 +49,7 @@ class CheckpointFolder {
   /// Throws InputError where a file of sound bytes holds no state.
   using Check = std::function<void(const Found&)>;
   /// Newest sound state after at most `last` steps that passes the check. Reasons why newer states are
-  /// unsound go to `refused`, a sentence each.
+  /// unsound go to `refused`, a sentence each. Throws InputError where the folder cannot be read.
   std::optional<Found> newest(std::vector<std::string>& refused, const Check& check = {},
                               std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
 

@@ -210,13 +210,18 @@ std::vector<std::string> Hdf5File::datasets() const {
   std::vector<std::string> names;
   const std::string all;
   const Check check{path_, all};
-  check.read(H5Ovisit2(
+  // Links by H5Lvisit, not objects by H5Ovisit: its arguments differ between versions of the library.
+  check.read(H5Lvisit(
       id_, H5_INDEX_NAME, H5_ITER_INC,
-      [](hid_t /*root*/, const char* name, const H5O_info_t* info, void* out) -> herr_t {
-        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+      [](hid_t root, const char* name, const H5L_info_t* link, void* out) -> herr_t {
+        if (link->type != H5L_TYPE_HARD) return 0;
+        const Id object(H5Oopen(root, name, H5P_DEFAULT), H5Oclose);
+        if (object < 0) return -1;
+        if (H5Iget_type(object) == H5I_DATASET)
+          static_cast<std::vector<std::string>*>(out)->emplace_back(name);
         return 0;
       },
-      &names, H5O_INFO_BASIC));
+      &names));
   return names;
 }
 

@@ -44,6 +44,18 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
+/// Removes the file at the end of its life.
+class Removal {
+ public:
+  explicit Removal(const fs::path& path) : path_(path) {}
+  ~Removal() { ::unlink(path_.c_str()); }
+  Removal(const Removal&) = delete;
+  Removal& operator=(const Removal&) = delete;
+
+ private:
+  const fs::path& path_;
+};
+
 /// Writes the bytes of a file to an open one.
 void pour(std::ifstream& file, int to, const fs::path& shown) {
   std::array<char, 1 << 16> bytes{};
@@ -81,12 +93,15 @@ void write_named_file(const fs::path& path, const std::function<void(const fs::p
     throw ResourceError(fmt::format("cannot write {}: there is no folder {}; make it, or choose another",
                                     path.string(), folder.string()));
   const int standard = standard_file(file);
-  if (standard < 0) return replace_file(file, write);
-  fs::path beside = file;
-  beside += ".tmp";
-  replace_file(beside, write);
-  std::ifstream written(beside, std::ios::binary);
-  fs::remove(beside, error);  // its bytes stay until they are read
+  const Neighbour neighbour(file);
+  const fs::path& beside = neighbour.path();
+  if (standard < 0) return replace_file(file, beside, write);
+  std::ifstream written;
+  {
+    const Removal removal(beside);  // its bytes stay until they are read
+    write(beside);
+    written.open(beside, std::ios::binary);
+  }
   pour(written, standard, path);
 }
 

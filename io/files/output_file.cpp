@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -48,6 +50,11 @@ const char* remedy_of(int error) {
 }
 
 void require_created(const std::filesystem::path& folder, const std::error_code& error) {
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(folder, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_directory(there))
+    throw ResourceError(fmt::format("cannot create {0}: a file of that name is there; remove or rename {0}",
+                                    folder.string()));
   if (error)
     throw ResourceError(
         fmt::format("cannot create {}: {}{}", folder.string(), error.message(), remedy_of(error.value())));
@@ -78,12 +85,39 @@ int sync(const std::filesystem::path& path) {
   return error;
 }
 
-/// Calls `write` with the path of a neighbour and renames that file to `path`. Removes the neighbour if
+/// Neighbour of a file in a folder whose files are all the program's.
+std::filesystem::path part_of(std::filesystem::path path) {
+  path += ".part";
+  return path;
+}
+
+/// "NAME.tread.part", "NAME.tread-2.part": NAME is cut so that each name that the folder bears has a
+/// neighbour.
+std::filesystem::path neighbour_of(const std::filesystem::path& path, int number) {
+  const std::string ending = number > 1 ? fmt::format(".tread-{}.part", number) : ".tread.part";
+  const std::filesystem::path folder = path.parent_path();
+  const long limit = ::pathconf(folder.empty() ? "." : folder.c_str(), _PC_NAME_MAX);  // [B]
+  std::string name = path.filename().string();
+  if (std::size_t room = static_cast<std::size_t>(limit) - ending.size(); limit > 0 && name.size() > room) {
+    // Not within a character:
+    while (room > 0 && (static_cast<unsigned char>(name[room]) & 0xC0U) == 0x80) --room;
+    name.resize(room);
+  }
+  return folder / (name + ending);
+}
+
+/// Returns true if the path leads to the open regular file.
+bool leads_to(const std::filesystem::path& path, int descriptor) {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && S_ISREG(open.st_mode) &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/// Calls `write` with the path of the neighbour and renames that file to `path`. Removes the neighbour if
 /// either fails.
-void rename_finished(const std::filesystem::path& path,
+void rename_finished(const std::filesystem::path& path, const std::filesystem::path& part,
                      const std::function<void(const std::filesystem::path& part)>& write) {
-  std::filesystem::path part = path;
-  part += ".part";
   try {
     write(part);
     if (::rename(part.c_str(), path.c_str()) != 0) fail(path, errno);
@@ -97,19 +131,57 @@ void rename_finished(const std::filesystem::path& path,
 
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& part)>& write) {
-  const auto forced = [&](const std::filesystem::path& part) {
-    write(part);
-    if (const int error = sync(part)) fail(part, error);
-  };
-  rename_finished(path, forced);
+  replace_file(path, part_of(path), write);
+}
+
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
+                  const std::function<void(const std::filesystem::path& part)>& write) {
+  rename_finished(path, part, [&](const std::filesystem::path& written) {
+    write(written);
+    if (const int error = sync(written)) fail(path, error);
+  });
   const std::filesystem::path folder = path.parent_path();
   if (const int error = sync(folder.empty() ? "." : folder)) fail(path, error);
+}
+
+Neighbour::Neighbour(const std::filesystem::path& path) {
+  for (int number = 1;;) {
+    path_ = neighbour_of(path, number);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) fail(path, errno);
+    const bool made = descriptor_ >= 0;
+    if (!made) descriptor_ = ::open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const bool locked = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    // On a file system without locks nobody takes a new file for one that was left.
+    const bool lockless = made && !locked && errno != EWOULDBLOCK;
+    const bool here = (locked || lockless) && leads_to(path_, descriptor_);
+    if (made && here) return;
+    const bool removed = here && ::unlink(path_.c_str()) == 0;
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    if (!made && !removed) ++number;
+  }
+}
+
+Neighbour::~Neighbour() {
+  ::close(descriptor_);
+}
+
+void force_to_disk(const std::filesystem::path& path) {
+  if (const int error = sync(path)) fail(path, error);
 }
 
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   require_created(folder, error);
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  try {
+    create_folder(directory);
+  } catch (const ResourceError& error) {
+    throw ResourceError(fmt::format("{}; -o names another", error.what()));
+  }
 }
 
 void create_last_folder(const std::filesystem::path& folder) {
@@ -130,7 +202,8 @@ void write_text_file(const std::filesystem::path& path, std::string_view text) {
 }
 
 void show_text_file(const std::filesystem::path& path, std::string_view text) {
-  rename_finished(path, [&](const std::filesystem::path& part) { write_text(part, text, path); });
+  rename_finished(path, part_of(path),
+                  [&](const std::filesystem::path& part) { write_text(part, text, path); });
 }
 
 GrowingFile::GrowingFile(const std::filesystem::path& path) : GrowingFile(path, path) {}

@@ -14,8 +14,35 @@ namespace tread {
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& part)>& write);
 
+/// Does so by way of the neighbour `part`.
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
+                  const std::function<void(const std::filesystem::path& part)>& write);
+
+/// An empty new file "NAME.tread.part" beside the file NAME, locked until this ends. One that a killed
+/// process left is removed; another process's, or what cannot be locked, stays, and the name gets a number.
+class Neighbour {
+ public:
+  /// Throws ResourceError, which names `path`.
+  explicit Neighbour(const std::filesystem::path& path);
+  ~Neighbour();
+  Neighbour(const Neighbour&) = delete;
+  Neighbour& operator=(const Neighbour&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+/// Forces the data of a closed file to the disk. Throws ResourceError.
+void force_to_disk(const std::filesystem::path& path);
+
 /// Makes the folder and those above it. Throws ResourceError.
 void create_folder(const std::filesystem::path& folder);
+
+/// create_folder() of one that option -o can replace, which the error says.
+void make_directory(const std::filesystem::path& directory);
 
 /// Makes the folder in one that is there. Throws ResourceError.
 void create_last_folder(const std::filesystem::path& folder);

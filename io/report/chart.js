@@ -120,7 +120,12 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     chosen.setAttribute("x", Math.min(start, x));
     chosen.setAttribute("width", Math.abs(x - start));
   });
+  svg.addEventListener("pointercancel", () => {
+    start = null;
+    chosen.setAttribute("width", 0);
+  });
   svg.addEventListener("pointerup", (event) => {
+    if (start === null) return;
     const ends = [start, pixel(event)].sort((a, b) => a - b);
     start = null;
     chosen.setAttribute("width", 0);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/report/assets.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -49,7 +50,9 @@ std::string escaped(char c) {
   }
 }
 
-std::string marked_up(std::string_view text, std::string_view open, std::string_view close) {
+std::string marked_up(std::string_view stated, std::string_view open, std::string_view close) {
+  const std::string valid = in_utf8(stated);
+  const std::string_view text = valid;
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     out += escaped(text[i]);
@@ -73,7 +76,7 @@ std::string without_end_zeros(std::string decimal) {
 
 std::string html_escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) out += escaped(c);
+  for (const char c : in_utf8(text)) out += escaped(c);
   return out;
 }
 

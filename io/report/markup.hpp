@@ -6,7 +6,7 @@
 
 namespace tread {
 
-/// Text for HTML with special characters escaped.
+/// Text for HTML with special characters escaped, and U+FFFD in place of bytes that are not UTF-8.
 std::string html_escaped(std::string_view text);
 
 /// The same with subscripts of one or two characters after a single letter ("F_N", "d_m"). Other underscores

@@ -61,7 +61,7 @@ void add_material(Keys& keys, const std::string& name) {
                at(&Scene::materials, name, &Material::damping_up_to), kFrequency, "kHz", above(0, 1e9),
                "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
                "nine tenths of beta w there, above it at most 1.7 times that, and a step that a beta of "
-               "1e-4 s leaves too; none: at all frequencies"));
+               "1e-4 s leaves too; stiffens above it by up to 6 pi f beta; none: at all frequencies"));
 }
 
 namespace {
@@ -109,12 +109,15 @@ void add_wheel(Keys& keys) {
       "wheel.diameter", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::diameter), kLength, "m", {0.1, 3},
       fmt::format("Diameter at the nominal rolling circle; of a half wheelset {:g} m to {:g} m",
                   kSmallestDiameter, kLargestDiameter)));
-  keys.push_back(
-      quantity("wheel.lateral_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::lateral_offset), kLength,
-               "mm", {-0.05, 0.05},
-               fmt::format("Rail centre line in wheel coordinates, positive to the field side; under "
-                           "a half wheelset at most {:g} mm to either side",
-                           1e3 * kMostAside)));
+  keys.push_back(quantity(
+      "wheel.lateral_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::lateral_offset), kLength, "mm",
+      {-0.05, 0.05},
+      fmt::format("Rail centre line in wheel coordinates, positive to the field side: half of (gauge + "
+                  "width of the rail head 14 mm below its crown - wheels' distance back to back), less "
+                  "the way from the flange's back to y = 0 of the profile, usually 70 mm; the default "
+                  "belongs to CN60 and wheels 1353 mm back to back; under a half wheelset at most {:g} "
+                  "mm to either side",
+                  1e3 * kMostAside)));
   keys.push_back(
       half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
                              above(0, 1e4), "Mass that the web, or the brake rings, are sized to reach")));

@@ -2,6 +2,7 @@
 // A key of a scene and a table of keys.
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,6 +26,9 @@ struct DampingField {
 /// Where a key lives in a Scene; monostate when the scene lacks the key's table.
 using Field =
     std::variant<std::monostate, double*, std::optional<double>*, int*, bool*, std::string*, DampingField>;
+
+/// The longest text that names no file [characters].
+inline constexpr std::size_t kLongestText = 1000;
 
 enum class Kind {
   text,       ///< a string

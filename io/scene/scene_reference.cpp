@@ -7,6 +7,7 @@
 
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/study_reader.hpp"
 
 namespace tread {
 
@@ -48,6 +49,31 @@ Runs with equal mesh and preload share the static state through the preload cach
 A fork (`tread run --from`) may differ in all keys that affect none of mesh, preload and motion.
 )";
 
+constexpr const char* kStudyFile = R"(
+## Study file
+
+[`tread sweep`](commands.md#tread-sweep) reads a TOML file that varies keys of a scene.
+[Run a study](../how-to/run-a-study.md) shows one; [studies](../explanation/studies.md) lists the effects.
+
+| table | key | default | meaning |
+|---|---|---|---|
+| `[study]` | `title` | path of the file | title of the report, at most {text} characters |
+| `[study]` | `scene` | required | scene file, relative to the study's folder; where there is none, the shipped scene of that name |
+| `[study]` | `jobs` | as many as cores, cards and memory allow; elsewhere all | runs at once, 1 to {jobs}; `-j` replaces it |
+| `[study]` | `threads` | a run's share of the idle cores | threads of a run, 1 to {jobs}; `-t` replaces it |
+| `[study]` | `share` | `true` | points that are one run up to the corrugation roll there once; `--no-share` replaces it |
+| `[set]` | keys of a scene | none | one value for all points |
+| `[grid]` | keys of a scene | none | an array of values; each combination is a point, the last key changes fastest; at most {points} points |
+| `[[point]]` | keys of a scene | none | one value for this point; one key at least |
+| `[[point]]` | `name` | the ends of its keys and its values, such as `speed=300km_h,mu=0.3` | name of the point's folder |
+
+A study has `[grid]` or `[[point]]`; both together are an error.
+A key of `[set]` may not vary.
+Equal points, empty arrays, unknown keys and keys without effect are errors.
+A name has letters, digits and `.` `_` `+` `-` `=` `,`, at most {name} characters, and begins with neither `.` nor `-`.
+Names differ from one another and from the files of a study, such as `sweep.csv`.
+)";
+
 /// A cell of a Markdown table.
 std::string cell(std::string text) {
   for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
@@ -77,7 +103,7 @@ std::string allowed_of(const Key& key) {
   for (const std::string& value : key.allowed)
     list += fmt::format("{}`\"{}\"`", list.empty() ? "" : ", ", value);
   if (key.takes_file) list += list.empty() ? "a file" : ", or a file";
-  return list.empty() ? "any text" : list;
+  return list.empty() ? fmt::format("at most {} characters", kLongestText) : list;
 }
 
 std::string meaning_of(const Key& key) {
@@ -135,6 +161,8 @@ std::string scene_reference() {
   std::string text = kIntroduction + effects_table();
   text += "\n## Tables\n";
   for (const SceneTable& table : tables) text += table_section(table, keys, everything);
+  text += fmt::format(kStudyFile, fmt::arg("jobs", kMostJobs), fmt::arg("points", kMostPoints),
+                      fmt::arg("name", kLongestPointName), fmt::arg("text", kLongestText));
   text += "\n## Library\n";
   for (const LibraryEntry& entry : scene_library()) text += library_section(entry);
   return text;

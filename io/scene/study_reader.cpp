@@ -29,8 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLargestStudy = 1 << 20;  // [bytes]
-constexpr std::size_t kLongestName = 120;       // [characters] of a point
-constexpr int kMostJobs = 4096;
 
 /// Names that no point can have: files of a study, and files by which a folder shows whose results it holds.
 constexpr std::array kReservedNames = {"report.html",   "figures",    "status.json",  "request",
@@ -124,15 +122,9 @@ class StudyReader {
     for (const auto& [name, node] : head) {
       const std::string key = std::string(name.str());
       const std::string path = "study." + key;
-      const std::optional<std::string> text = node.value_exact<std::string>();
       const std::optional<std::int64_t> number = node.value_exact<std::int64_t>();
       if (key == "title" || key == "scene") {
-        if (!text || text->empty())
-          report(name.source(), path, fmt::format("expected a text, got {}", describe_node(node)));
-        else if (key == "title")
-          study_.title = *text;
-        else
-          study_.scene = scene_at(path_.parent_path(), *text);
+        read_text(key == "scene", path, name.source(), node);
       } else if (key == "jobs" || key == "threads") {
         if (!number || *number < 1 || *number > kMostJobs)
           report(name.source(), path,
@@ -152,6 +144,22 @@ class StudyReader {
                                                             : fmt::format("did you mean study.{}?", near)));
       }
     }
+  }
+
+  /// Title of the study, or its scene.
+  void read_text(bool scene, const std::string& path, const toml::source_region& at, const toml::node& node) {
+    const std::optional<std::string> text = node.value_exact<std::string>();
+    if (!text || text->empty())
+      return report(at, path, fmt::format("expected a text, got {}", describe_node(node)));
+    try {
+      require_text(*text, scene);
+    } catch (const InputError& error) {
+      return report(at, path, error.what());
+    }
+    if (scene)
+      study_.scene = scene_at(path_.parent_path(), *text);
+    else
+      study_.title = *text;
   }
 
   /// As they stand in the file; its tables come sorted by name.
@@ -234,13 +242,13 @@ class StudyReader {
           fmt::format("\"{}\" is a name that tread itself uses in such a folder: choose another name", name));
       return;
     }
-    if (!name.empty() && name.size() <= kLongestName && name.front() != '.' && name.front() != '-' &&
+    if (!name.empty() && name.size() <= kLongestPointName && name.front() != '.' && name.front() != '-' &&
         std::all_of(name.begin(), name.end(), plain))
       return;
     report(at, "point.name",
            fmt::format("\"{}\" cannot name a folder: use letters, digits and . _ + - = , (at most {}), "
                        "neither . nor - first",
-                       name, kLongestName));
+                       name, kLongestPointName));
   }
 
   void make_points() {
@@ -347,11 +355,11 @@ std::string point_name(const std::vector<StudySetting>& varied) {
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", key_end(setting.key, parts),
                         folder_text(setting.value));
   }
-  if (name.size() <= kLongestName) return name;
+  if (name.size() <= kLongestPointName) return name;
   Hash hash;
   hash.add(std::as_bytes(std::span(name)));
   constexpr std::size_t kDigits = 16;
-  return fmt::format("{}{:016x}", name.substr(0, kLongestName - kDigits), hash.value());
+  return fmt::format("{}{:016x}", name.substr(0, kLongestPointName - kDigits), hash.value());
 }
 
 bool is_study(const std::string& text, const std::string& name) {

@@ -1,6 +1,7 @@
 #pragma once
 // A study file: one scene with some of its keys varied.
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -37,8 +38,12 @@ struct Study {
   bool share = true;                 ///< points that are one run up to the corrugation roll there once
 };
 
-/// The most points of a study.
+/// The most points of a study's grid.
 inline constexpr std::size_t kMostPoints = 1000;
+/// The longest name of a point [characters].
+inline constexpr std::size_t kLongestPointName = 120;
+/// The most runs at once, and the most threads of a run.
+inline constexpr int kMostJobs = 4096;
 
 /// Reads a study; `scene` becomes a path from the working directory, or that of a shipped scene. Throws
 /// ProblemsError with every problem of the file itself, or its base InputError. What the scene says of the

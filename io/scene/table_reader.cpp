@@ -96,10 +96,7 @@ class TableParser {
     std::vector<std::string> units = bracketed(line);
     const bool enough = units.size() >= columns_;
     if (enough) units.resize(columns_);
-    if (rows.empty() && enough && is_header(units, line)) {
-      read_header(units, line);
-      return;
-    }
+    if (rows.empty() && enough && is_header(units, line)) return read_header(units, line);
     if (rows.empty() && enough)
       ignored_ = fmt::format("; {} on line {} are no units", listed_units(units), line_);
     const std::vector<std::string> row = table_cells(line);
@@ -126,6 +123,7 @@ class TableParser {
   }
 
   std::vector<std::vector<double>> rows;
+  std::vector<std::string> names;           ///< in the headers, "" where none states one
   bool angles = false;                      ///< in the first column
   Dimension dimension = kLength.dimension;  ///< of the first column
 
@@ -145,9 +143,9 @@ class TableParser {
 
   /// Names before the units of the columns.
   std::vector<std::string> names_of(const std::string& line) const {
-    std::vector<std::string> names = names_before_units(line);
-    names.resize(columns_);
-    return names;
+    std::vector<std::string> found = names_before_units(line);
+    found.resize(columns_);
+    return found;
   }
 
   /// Returns true for "# way [inch]  wear [inch]": a word before each column's bracket, no digits, no more.
@@ -177,7 +175,11 @@ class TableParser {
 
   void read_header(const std::vector<std::string>& texts, const std::string& line) {
     try {
-      require_column_order(names_of(line), rules_.names);
+      const std::vector<std::string> found = names_of(line);
+      require_column_order(found, rules_.names);
+      names.resize(columns_);
+      for (std::size_t i = 0; i < columns_; ++i)
+        if (!found[i].empty()) names[i] = found[i];
       if (rules_.downwards) refuse_heights(line);
       state_units(texts);
     } catch (const InputError&) {
@@ -316,9 +318,8 @@ std::string missing_point(const GridColumns& grid, std::size_t rows, double x, d
 
 std::vector<std::string> table_cells(const std::string& line) {
   std::string text = line.substr(0, line.find('#'));
-  for (char& c : text) {
+  for (char& c : text)
     if (c == ',' || c == ';') c = ' ';
-  }
   std::istringstream stream(text);
   std::vector<std::string> found;
   for (std::string cell; stream >> cell;) found.push_back(cell);
@@ -349,13 +350,11 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
                              const TableRules& rules, std::vector<Problem>& problems) {
   TableParser parser(rules, 2);
   parse_rows(parser, content, path, 2, problems);
-  TwoColumns table;
+  TwoColumns table{{}, {}, parser.angles, parser.names, parser.dimension};
   for (const auto& row : parser.rows) {
     table.first.push_back(row[0]);
     table.second.push_back(row[1]);
   }
-  table.angles = parser.angles;
-  table.dimension = parser.dimension;
   return table;
 }
 

@@ -48,6 +48,7 @@ struct TwoColumns {
   std::vector<double> first;   ///< in SI; [rad] where the rules allow angles and the file states [deg]
   std::vector<double> second;  ///< in SI, or pure numbers
   bool angles = false;         ///< the first column holds angles
+  std::vector<std::string> names = {};      ///< that the lines of units state, "" where they state none
   Dimension dimension = kLength.dimension;  ///< of the first column
 };
 

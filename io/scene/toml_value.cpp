@@ -93,7 +93,7 @@ int to_integer(const toml::node& node, Notation notation) {
 std::string to_text(const Key& key, const toml::node& node, const fs::path& folder) {
   const auto* text = node.as_string();
   if (!text) wrong_type("a string in quotes", node);
-  const std::string& value = text->get();
+  const std::string& value = require_text(text->get(), key.takes_file);
   const bool allowed = std::find(key.allowed.begin(), key.allowed.end(), value) != key.allowed.end();
   if (allowed || (key.allowed.empty() && !key.takes_file)) return value;
   const bool looks_like_file = key.allowed.empty() || value.find_first_of("./") != std::string::npos;
@@ -133,6 +133,23 @@ std::string as_stated(double value) {
 }
 
 }  // namespace
+
+const std::string& require_text(const std::string& text, bool names_file) {
+  std::size_t characters = 0;
+  for (std::size_t at = 0; at < text.size(); at += std::max<std::size_t>(utf8_bytes(text, at), 1)) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    const bool shown = (c >= 0x20 && c != 0x7f) || c == '\n' || c == '\t';
+    if (c == 0 || (!names_file && !shown))
+      throw InputError(
+          fmt::format("character {} is the control character U+{:04X}; state printable characters alone",
+                      characters + 1, c));
+    ++characters;
+  }
+  if (characters > kLongestText && !names_file)
+    throw InputError(fmt::format("the text has {} characters, more than the limit of {}; shorten it",
+                                 characters, kLongestText));
+  return text;
+}
 
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) return fmt::format("the string \"{}\"", text->get());

@@ -24,6 +24,10 @@ bool is_idle_value(const Key& key, const toml::node& node, Scene scene);
 /// Throws InputError.
 bool to_boolean(const toml::node& node, Notation notation = Notation::toml);
 
+/// Returns the text. Throws InputError where it has more than kLongestText characters, or control characters
+/// other than tabs and line breaks; a name of a file may have all but U+0000.
+const std::string& require_text(const std::string& text, bool names_file);
+
 /// "the string "3 m"", for messages.
 std::string describe_node(const toml::node& node);
 

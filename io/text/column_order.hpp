@@ -8,7 +8,7 @@
 
 namespace tread {
 
-/// Names that a column goes by, in lower case, the usual one first.
+/// Names that a column goes by, in lower case. The first is the usual one, in the case that messages show.
 using ColumnNames = std::vector<std::string>;
 
 /// Names before units in brackets: "x" and "d" of "# way x [m], depth (d) [mm]".

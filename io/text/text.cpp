@@ -45,6 +45,16 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string in_utf8(std::string_view text) {
+  std::string valid;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = utf8_bytes(text, at);
+    valid += bytes > 0 ? text.substr(at, bytes) : "\xEF\xBF\xBD";
+    at += std::max<std::size_t>(bytes, 1);
+  }
+  return valid;
+}
+
 std::string shell_word(const std::string& text) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||

@@ -20,6 +20,9 @@ std::size_t utf8_bytes(std::string_view text, std::size_t at);
 /// The text on one line: blanks in place of control characters, "?" in place of bytes that are not UTF-8.
 std::string one_line(std::string text);
 
+/// The text with U+FFFD in place of bytes that are not UTF-8.
+std::string in_utf8(std::string_view text);
+
 /// A cell of a CSV file, quoted if necessary.
 std::string csv_cell(const std::string& text);
 

@@ -65,6 +65,7 @@ void write_points(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid,
   }
   write_number(file, "NumberOfPoints", grid.points.size());
   file.write<double>("/VTKHDF/Points", points, {grid.points.size(), 3});
+  file.write_attribute("/VTKHDF/Points", "unit", "m");
 }
 
 void write_topology(Hdf5File& file, const VtkGrid& grid) {
@@ -153,9 +154,11 @@ void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame) {
   Hdf5File file = begin(frame.attributes);
   for (const std::string name : kShared) file.link_external("/VTKHDF/" + name, frame.mesh, "/VTKHDF/" + name);
   write_compressed(file, "/VTKHDF/Points", frame.points, 3);
+  file.write_attribute("/VTKHDF/Points", "unit", "m");
   for (const VtkArray& array : frame.arrays) write_array(file, array);
   const std::array<double, 1> time = {frame.time};
   file.write<double>("/VTKHDF/FieldData/time [s]", time);
+  file.write_attribute("/VTKHDF/FieldData/time [s]", "unit", "s");
   write_text_file(path, file.image());
 }
 

@@ -47,6 +47,17 @@ TEST_F(Commands, MissingSceneIsAProblemToo) {
   EXPECT_TRUE(has(outcome.out, "cannot read")) << outcome.out;
 }
 
+/// A device has no end.
+TEST_F(Commands, OnlyRegularFilesAreLookedInto) {
+  for (const char* command : {"check", "sweep --list"}) {
+    const pid_t process =
+        samples::start_program(fmt::format("{} /dev/zero", command), folder_, "ulimit -t 2;");
+    EXPECT_EQ(samples::wait_for(process), 2) << command;
+    EXPECT_TRUE(has(content("errors"), "cannot read /dev/zero: it is not a regular file"))
+        << content("errors");
+  }
+}
+
 TEST_F(Commands, CheckStatesStepsAndFields) {
   const Outcome outcome = call("check --json -t 1 " + scene("bar-wave.toml"));
   EXPECT_EQ(outcome.code, 0);
@@ -498,7 +509,13 @@ TEST_F(Commands, WrongWordsAreNamed) {
         {"run tyr", "tread: cannot read tyr: there is no such file; did you mean tyre?"},
         {"run nope", "tread: cannot read nope: there is no such file; shipped: "},
         {"run \"\"", "tread: the name of the scene is empty"},
-        {"run tyre -o \"\"", "tread run: --output: the name is empty"},
+        {"run tyre -o \"\"", "tread run: --output: the value is empty; state one, or leave the option out"},
+        {"run tyre --from \"\"", "tread run: --from: the value is empty"},
+        {"run tyre -q \"\"", "tread run: --quality: the value is empty"},
+        {"sweep tyre --launcher \"\"", "tread sweep: --launcher: the value is empty"},
+        {"cache clear --cache \"\"", "tread cache: --cache: the value is empty"},
+        {"cache --cache= clear", "tread cache: --cache: the value is empty"},
+        {"run tyre --bogus=", "tread run: there is no option --bogus=; "},
         {"sweep tyre", "is a scene, not a study: `tread run"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
@@ -509,6 +526,12 @@ TEST_F(Commands, WrongWordsAreNamed) {
     EXPECT_TRUE(has(outcome.errors, answer)) << wrong << outcome.errors;
     EXPECT_FALSE(has(outcome.errors, "tread: tread")) << wrong << outcome.errors;
   }
+}
+
+TEST_F(Commands, AnEmptyValueIsAProblemToo) {
+  const Outcome outcome = call("check tyre --quiet= --set= --json");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.out, "\"message\": \"tread check: --set: the value is empty")) << outcome.out;
 }
 
 TEST_F(Commands, AnUnknownLibraryOfThreadsInTheEnvironmentIsRefused) {

@@ -70,7 +70,8 @@ TEST_F(CompareCommand, SetsTheLongitudinalForceBesideARun) {
   EXPECT_NEAR(found["rms_difference_N"].get<double>(), 300, 0.01);
   EXPECT_TRUE(has(content_of(folder() / "compare.html"), "Mean F<sub>L</sub>"));
   EXPECT_EQ(call(command), 2);
-  EXPECT_TRUE(has(errors(), "the columns are named x, F_L; expected x, f_n")) << errors();
+  EXPECT_TRUE(has(errors(), "pull.txt: the file holds F_L, the run's F_N is compared; state --force F_L"))
+      << errors();
 }
 
 TEST_F(CompareCommand, WritesElsewhereIfTold) {

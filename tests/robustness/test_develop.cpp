@@ -94,6 +94,11 @@ TEST_F(Develop, ItsStatusCountsAllPassages) {
   EXPECT_EQ(number_in(stopped, "interrupted"), 1);
   EXPECT_EQ(number_in(stopped, "waiting"), 2);
   EXPECT_FALSE(complete(folder_));
+  EXPECT_EQ(call(fmt::format("ctl {} status", folder_.string())), 75);
+  EXPECT_TRUE(has(output(), "\"resumable\": true")) << output();
+  EXPECT_TRUE(has(errors(), ": `tread develop ") && has(errors(), "2.4 ms'` goes on")) << errors();
+  EXPECT_EQ(call(fmt::format("ctl {} status", (root_ / "whole").string())), 0) << errors();
+  EXPECT_TRUE(has(output(), "\"resumable\": false")) << output();
 }
 
 TEST_F(Develop, RowsAcrossTheRailWearByThemselves) {
@@ -230,7 +235,7 @@ TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kCorrugation + kWear, "state \"gap\"", "--set corrugation.apply=nodes");
   expect_refused(kCorrugation + kWear, "is below 4 elements, 32 mm", "--set \"wear.shortest=31 mm\"");
   expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=73 mm\"");
-  expect_refused(kCorrugation + kWear, "motion.duration must be 2.299 ms", "--set \"motion.duration=2 ms\"");
+  expect_refused(kCorrugation + kWear, "motion.duration must be 2.297 ms", "--set \"motion.duration=2 ms\"");
   expect_refused(kCorrugation + kWear, "tread develop: solution_zone.start = 20 mm: all passages begin",
                  "--set \"solution_zone.start=20 mm\"");
   EXPECT_FALSE(fs::exists(folder_));

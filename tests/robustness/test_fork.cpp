@@ -152,6 +152,14 @@ TEST_F(Fork, DamagedStatesAreNamedInTheError) {
                              states.front().string()));
 }
 
+TEST_F(Fork, AFolderThatCannotBeReadIsNamed) {
+  fs::create_directories(root_ / "closed");
+  std::ofstream(root_ / "closed/checkpoint") << "not a folder";
+  expect_refused(from("sine.toml", "closed"),
+                 fmt::format("tread: cannot read {}/closed/checkpoint: Not a directory", root_.string()));
+  EXPECT_FALSE(has(errors(), "of use"));
+}
+
 TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
   expect_refused(from("sine.toml", "smooth", "--set contact.friction=0.3 --set \"motion.speed=250 km/h\""),
                  "contact.friction (0.5 there, 0.3 here), motion.speed (300 km/h there, 250 km/h here)");

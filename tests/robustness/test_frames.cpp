@@ -1,23 +1,42 @@
-// Frames for ParaView: when they are due, what they show, what lies in the folder. Their reader:
-// tests/paraview. Kills: test_resume.cpp.
+// Frames for ParaView: when they are due, what they show, what lies in the folder and on the disk. Their
+// reader: tests/paraview. Kills: test_resume.cpp.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "drivers/engine/start/step_limit.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/growing_files.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/text/text_file.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
+
+namespace {
+
+/// Names of the files that have been forced to the disk.
+std::set<std::string> forced;
+
+}  // namespace
+
+/// Takes the place of the C library's, and notes the file.
+extern "C" int fsync(int descriptor) {
+  std::error_code error;
+  forced.insert(
+      std::filesystem::read_symlink(fmt::format("/proc/self/fd/{}", descriptor), error).filename().string());
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
 
 namespace tread {
 namespace {
@@ -36,6 +55,16 @@ TEST(FrameSteps, AreEvenFromTheFirstStepToTheLast) {
   const Steps many = frame_steps(1000000, std::int64_t{1} << 40);
   EXPECT_EQ(many.size(), 1000000U);
   EXPECT_EQ(many.back(), std::int64_t{1} << 40);
+}
+
+/// The checkpoints of a run go as soon as its files are there.
+TEST(GrowingFilesTest, AreOnTheDiskOnceClosed) {
+  const Model model{samples::tyre_scene({"scene.element_size=10 mm"})};
+  const samples::TemporaryFolder folder;
+  GrowingFiles files(model, folder.path, {});
+  forced.clear();
+  files.close();
+  EXPECT_EQ(forced, (std::set<std::string>{"histories.csv", "patch.h5", "run.h5"}));
 }
 
 class Frames : public testing::TestWithParam<const char*> {
@@ -126,7 +155,13 @@ TEST_P(Frames, LieWholeInTheFolder) {
   FrameFiles out = files();
   EXPECT_TRUE(out.due(1) && out.due(2 * kSteps));
   EXPECT_FALSE(out.due(2) || out.due(kSteps + 5));
+  forced.clear();
   leave_frame(out);
+  EXPECT_TRUE(forced.contains("frames.hdf.series.part"));
+  const samples::TemporaryFolder other;
+  forced.clear();
+  FrameFiles::take_over(folder_, other.path, kSteps);
+  EXPECT_TRUE(forced.contains(frame(kSteps).filename().string() + ".part"));
   simulation_->step();
   leave_frame(out);
   leave_frame(out);  // once more on request: the same one

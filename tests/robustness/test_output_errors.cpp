@@ -11,6 +11,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -82,6 +83,15 @@ TEST_F(OutputErrors, FolderWithoutPermissionIsNamed) {
   ASSERT_EQ(::seteuid(user), 0);
   fs::permissions(folder_, fs::perms::owner_all);
   EXPECT_NE(message.find("run.h5: Permission denied"), std::string::npos) << message;
+}
+
+TEST_F(OutputErrors, AFileInPlaceOfAFolderIsNamed) {
+  const fs::path place = folder_ / "frames";
+  std::ofstream(place) << "mine";
+  const std::string expected =
+      fmt::format("cannot create {0}: a file of that name is there; remove or rename {0}", place.string());
+  EXPECT_EQ(message_of<ResourceError>([&] { create_folder(place); }), expected);
+  EXPECT_EQ(message_of<ResourceError>([&] { create_last_folder(place); }), expected);
 }
 
 TEST_F(OutputErrors, UnreadableHdf5IsAnInputError) {
@@ -237,6 +247,38 @@ TEST_F(Descriptors, ANamedPipeIsWrittenToAndALinkFollowed) {
   EXPECT_GT(content("shown").size(), columns.size());
   std::filesystem::create_directory(folder_ / "folder");
   EXPECT_EQ(shell(":", "profile LMA -o folder"), 4);
+}
+
+/// A file is written by way of a neighbour, which must be no file of the user's and must not stay.
+TEST_F(Descriptors, FilesBesideANamedOneStay) {
+  for (const char* name : {"u.txt.part", "u.txt.tmp"}) std::ofstream(folder_ / name) << "mine";
+  EXPECT_EQ(shell("umask 027", "profile LMA -o u.txt >/dev/null"), 0) << content("errors");
+  EXPECT_EQ(fs::status(folder_ / "u.txt").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+  EXPECT_EQ(shell(":", "profile LMA -o /dev/stdout >u.txt"), 0) << content("errors");
+  EXPECT_EQ(shell("ulimit -f 0", "profile LMA -o u.txt >/dev/null 2>&1"), 4);
+  for (const char* name : {"u.txt.part", "u.txt.tmp"}) EXPECT_EQ(content(name), "mine") << name;
+  // Those, u.txt and the errors.
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 4);
+}
+
+TEST_F(Descriptors, WhatAKilledCommandLeftGoesAndWhatALivingOneWritesStays) {
+  const fs::path left = folder_ / "u.txt.tread.part";
+  const std::string words = "profile LMA -o u.txt >/dev/null";
+  std::ofstream(left) << "half";
+  EXPECT_EQ(shell(":", words), 0) << content("errors");
+  EXPECT_FALSE(fs::exists(left));
+  {
+    const Neighbour living(folder_ / "u.txt");
+    EXPECT_EQ(living.path(), left);
+    EXPECT_EQ(shell(":", words), 0) << content("errors");
+    EXPECT_TRUE(fs::exists(left));
+  }
+  EXPECT_EQ(shell(":", words), 0) << content("errors");
+  // u.txt and the errors.
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+  const std::string longest = std::string(254, 'x') + "y";
+  EXPECT_EQ(Neighbour(folder_ / longest).path().filename().string(), longest.substr(0, 244) + ".tread.part");
 }
 
 TEST_F(Descriptors, AFolderThatIsMissingIsNamed) {

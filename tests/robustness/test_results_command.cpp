@@ -166,6 +166,20 @@ TEST_F(ResultsCommand, StudiesListTheirRuns) {
   EXPECT_EQ(all["runs"][0]["state"], "done");
 }
 
+/// `tread compare` and `tread roughness` leave no status.
+TEST_F(ResultsCommand, ResultsWithoutAStatusAreDone) {
+  for (const char* only : {"compare.json", "levels.csv"}) {
+    const std::string name = fmt::format("with-{}", only);
+    fs::create_directory(folder(name));
+    for (const char* file : {only, "compare.html", "development.json", "dial.jsonl"})
+      std::ofstream(folder(name) / file) << "{}\n";
+    const json all = listing(name);
+    EXPECT_EQ(all["state"], "done") << only;
+    EXPECT_EQ(all["complete"], true) << only;
+    EXPECT_EQ(all["files"].size(), 4U) << all;
+  }
+}
+
 TEST_F(ResultsCommand, FoldersWithoutResultsAreRefused) {
   EXPECT_EQ(call("results " + folder("absent").string()), 2);
   EXPECT_TRUE(has(errors(), "there is no folder")) << errors();

@@ -549,6 +549,25 @@ TEST(SceneErrors, Overrides) {
   expect_part(error_of(kBase, {"slab.present=True"}), "\"True\" is not valid TOML; write true");
 }
 
+TEST(SceneErrors, Texts) {
+  const auto title = [](const std::string& text) { return "title = \"" + text + "\"\n"; };
+  const std::string start = "x.toml:3:1: scene.title: ";
+  std::string longest;
+  for (int i = 0; i < 1000; ++i) longest += "\xC3\xA9";
+  expect_messages({
+      {title(longest), "accepted"},
+      {title(longest + "x"), start + "the text has 1001 characters, more than the limit of 1000; shorten it"},
+      {title("\xC3\xA9\\u0000"),
+       start + "character 2 is the control character U+0000; state printable characters alone"},
+      {title("\\u007f"),
+       start + "character 1 is the control character U+007F; state printable characters alone"},
+      {"[wheel]\nprofile = \"a\\u0000.txt\"",
+       "x.toml:4:1: wheel.profile: character 2 is the control character U+0000; state printable characters "
+       "alone"},
+  });
+  expect_part(error_of(kBase, {"scene.title=a\rb"}), "--set: scene.title: character 2 is");
+}
+
 TEST(SceneErrors, Syntax) {
   expect_part(error_of("[rail]\nlength = = 3\n"), "x.toml:2:10: ");
   expect_part(error_of("[rail]\nlength = \"3 m\"\nlength = \"4 m\"\n"), "x.toml:3:");

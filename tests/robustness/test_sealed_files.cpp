@@ -184,6 +184,26 @@ TEST_F(Checkpoints, ThePreviousOneStandsInForADamagedOne) {
   EXPECT_EQ(checkpoints_.newest(refused_)->steps, 15);
 }
 
+/// Its states are whole: nobody is to start the run anew for its permissions.
+TEST_F(Checkpoints, AFolderThatMayNotBeReadIsNoDamage) {
+  checkpoints_.write(10, sample(10));
+  fs::permissions(folder_, fs::perms::none);
+  const uid_t user = ::geteuid();
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(65534), 0);  // root may read everywhere, nobody may not
+  }
+  std::string message;
+  try {
+    checkpoints_.newest(refused_);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(folder_, fs::perms::owner_all);
+  EXPECT_EQ(message,
+            fmt::format("cannot read {}: Permission denied; change its permissions", folder_.string()));
+}
+
 TEST_F(Checkpoints, AKillAtAnyStageLeavesASoundOne) {
   for (int stage = 0; stage < kCheckpointStages; ++stage) {
     checkpoints_.clear();

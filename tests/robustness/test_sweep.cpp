@@ -3,17 +3,21 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "drivers/process/host.hpp"
 #include "drivers/process/version.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/study/study_plan.hpp"
+#include "drivers/studies/study/study_report.hpp"
 #include "io/text/json.hpp"
 #include "tests/program.hpp"
 
@@ -44,14 +48,25 @@ output.progress_interval = "10 ms"
 motion.traction.mu = [0.1, 0.3]
 )");
   }
+  fs::path executable(const std::string& name, const std::string& lines) const {
+    fs::create_directories((program_.folder / name).parent_path());
+    const fs::path path = program_.write(name, lines);
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+  }
+  /// Stands for Slurm's program, which the job array asks to queue it again.
+  void write_scontrol() const {
+    executable("bin/scontrol", "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "queued").string() + "\n");
+  }
   int sweep(const fs::path& file, const std::string& more = "") const {
     return program_.call(fmt::format("sweep {} -o {} {}", file.string(), runs_.string(), more));
   }
-  /// Starts an element of a job array as Slurm does; its output goes to "log".
-  pid_t start_element(const fs::path& script, int number) const {
-    const std::string command =
-        fmt::format("PATH={0}/bin:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={1} exec bash {2} >{0}/log 2>&1",
-                    program_.folder.string(), number, script.string());
+  /// Starts an element of a job array as Slurm does, in another folder than the study's; its output goes to
+  /// "log". `more`: other variables.
+  pid_t start_element(const fs::path& script, int number, const std::string& more = "") const {
+    const std::string command = fmt::format(
+        "cd / && PATH={0}/bin:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={1} {3} exec bash {2} >{0}/log 2>&1",
+        program_.folder.string(), number, shell_word(script.string()), more);
     return samples::child([&] {
       ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       ::_exit(127);
@@ -82,7 +97,12 @@ TEST_F(Sweep, RunsEveryPointOnce) {
     EXPECT_TRUE(has(report, origin)) << origin;
 
   const auto written = fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json");
-  ASSERT_EQ(sweep(file), 0) << errors();
+  ASSERT_EQ(sweep(file, "--json"), 0) << errors();
+  const JsonRecord json = parse_json(program_.out(), "sweep");
+  EXPECT_EQ(number_in(json, "points.1.varied.pulse.velocity.value"), 2);
+  EXPECT_EQ(text_in(json, "points.1.varied.pulse.velocity.unit"), "m/s");
+  const std::string hash = text_in(json, "points.1.state_hash");
+  EXPECT_TRUE(!hash.empty() && has(csv, "," + hash + "\n")) << hash;
   EXPECT_EQ(fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json"), written);
   EXPECT_EQ(content_of(runs_ / "sweep.csv"), csv);
 }
@@ -144,9 +164,8 @@ TEST_F(Sweep, LauncherStartsTheRuns) {
   EXPECT_TRUE(has(errors(), "--launcher: there is no program 'no-such-program' in PATH")) << errors();
   EXPECT_FALSE(fs::exists(runs_));
   const fs::path launcher =
-      program_.write("launcher", "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "calls").string() +
-                                     "\nshift 2\nexec \"$@\"\n");
-  fs::permissions(launcher, fs::perms::owner_all);
+      executable("launcher", "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "calls").string() +
+                                 "\nshift 2\nexec \"$@\"\n");
   // A run elsewhere takes the cores that it is given; more of them at once than this machine has cores.
   ASSERT_EQ(sweep(file, fmt::format("--jobs 1000 --launcher \"{} -N 1\"", launcher.string())), 0) << errors();
   const std::string calls = content_of(program_.folder / "calls");
@@ -196,15 +215,18 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_TRUE(has(content_of(script),
                   fmt::format("-o {} --set 'output.progress_interval=2 ms'` collects", runs_.string())))
       << content_of(script);
-  ASSERT_EQ(sweep(file, "-t 1 --slurm " + script.string()), 0) << errors();
+  // As mpirun, it has a code of its own for a run that was stopped.
+  const fs::path launcher = executable("launcher",
+                                       "#!/bin/bash\n\"$@\" &\ntrap 'kill -TERM $!' TERM\n"
+                                       "while wait $!; code=$?; kill -0 $! 2>/dev/null; do :; done\n"
+                                       "[[ $code != 75 ]] || exit 1\nexit $code\n");
+  ASSERT_EQ(sweep(file, fmt::format("-t 1 --launcher {} --slurm {}", launcher.string(), script.string())), 0)
+      << errors();
   const std::string text = content_of(script);
   EXPECT_TRUE(has(text, "place=( -t 1 )")) << text;
   EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
   EXPECT_FALSE(fs::exists(runs_ / "mu=0.1" / "summary.json"));
-  fs::create_directory(program_.folder / "bin");
-  fs::permissions(program_.write("bin/scontrol",
-                                 "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "queued").string() + "\n"),
-                  fs::perms::owner_all);
+  write_scontrol();
   const auto element = [&](int number) { return samples::wait_for(start_element(script, number)); };
   EXPECT_EQ(element(2), 2) << log();
   // Slurm's SIGTERM at the end of the time leaves a checkpoint, and the element is queued again.
@@ -216,6 +238,12 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_EQ(samples::wait_for(first), 75) << log();
   EXPECT_TRUE(has(content_of(program_.folder / "queued"), "requeue 7"));
   EXPECT_TRUE(fs::exists(runs_ / "mu=0.1" / "checkpoint"));
+  EXPECT_FALSE(fs::exists(runs_ / "mu=0.1/failed.json"));
+  // An older status does not speak for a launcher that fails.
+  const std::string whole = content_of(launcher);
+  executable("launcher", "#!/bin/sh\nexit 1\n");
+  EXPECT_EQ(element(0), 1) << log();
+  executable("launcher", whole);
   EXPECT_EQ(element(0), 0) << log();
   EXPECT_EQ(element(1), 0) << log();
   const auto written = fs::last_write_time(runs_ / "mu=0.1/summary.json");
@@ -227,6 +255,38 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_EQ(number_in(status(), "done"), 2);
   EXPECT_EQ(sweep(file, "--slurm " + script.string()), 2);
   EXPECT_TRUE(has(errors(), "--slurm: no point is left to run")) << errors();
+}
+
+/// The script knows the folder in which paths are as the study's command states them.
+TEST_F(Sweep, JobArrayRunsFromAnyFolder) {
+  bars("[grid]\npulse.velocity = [\"1 m/s\"]\n");
+  const std::string before = fmt::format("cd {} &&", program_.folder.string());
+  const pid_t writer =
+      samples::start_program("sweep study.toml -o runs --slurm 'my array.sh'", program_.folder, before);
+  ASSERT_EQ(samples::wait_for(writer), 0) << errors();
+  const fs::path script = program_.folder / "my array.sh";
+  EXPECT_TRUE(has(content_of(script), ": sbatch 'my array.sh'. State")) << content_of(script);
+  EXPECT_EQ(samples::wait_for(start_element(script, 0)), 0) << log();
+  EXPECT_TRUE(fs::exists(runs_ / "velocity=1m_s/summary.json"));
+}
+
+/// The signal ends the script's wait, and then the run ends before the script has looked whether it lives.
+TEST_F(Sweep, JobArrayQueuesARunAgainThatObeysAtOnce) {
+  const fs::path run = executable(
+      "launcher", fmt::format("#!/bin/bash\ntrap 'exit 75' TERM\n: >{}\nwhile :; do sleep 0.01; done\n",
+                              (program_.folder / "ready").string()));
+  const fs::path slow = program_.write("slow.sh",
+                                       "kill() {\n  command kill \"$@\"; local code=$?\n"
+                                       "  [[ $1 != -TERM ]] || sleep 0.3\n  return $code\n}\n");
+  const fs::path script = program_.folder / "array.sh";
+  const std::string more = fmt::format("--launcher {} --slurm {}", run.string(), script.string());
+  ASSERT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), more), 0) << errors();
+  write_scontrol();
+  const pid_t element = start_element(script, 0, "BASH_ENV=" + slow.string());
+  ASSERT_TRUE(samples::wait_until([&] { return fs::exists(program_.folder / "ready"); })) << log();
+  ::kill(element, SIGTERM);
+  EXPECT_EQ(samples::wait_for(element), 75) << log();
+  EXPECT_TRUE(has(content_of(program_.folder / "queued"), "requeue 7"));
 }
 
 /// The collecting command must not take up on the login node what has failed in the array.
@@ -287,6 +347,21 @@ TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {
   const RunFolder taken(runs_ / "whole");
   EXPECT_EQ(sweep(file), 4);
   EXPECT_TRUE(has(errors(), "\n1 of 2 points are not done\n")) << errors();
+}
+
+TEST_F(Sweep, APointWithoutAFolderLeavesTheRest) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
+  fs::create_directory(runs_);
+  program_.write("runs/velocity=1m_s", "mine");
+  EXPECT_EQ(sweep(file, "--jobs 1"), 4) << errors();
+  EXPECT_TRUE(has(errors(), "\n  velocity=1m_s: not begun: cannot create " +
+                                (runs_ / "velocity=1m_s").string() +
+                                ": a file of that name is there; remove or rename "))
+      << errors();
+  EXPECT_TRUE(fs::exists(runs_ / "velocity=2m_s/report.html"));
+  const std::string csv = content_of(runs_ / "sweep.csv");
+  EXPECT_TRUE(has(csv, "velocity=1m_s,failed,1,") && has(csv, "velocity=2m_s,done,2,")) << csv;
+  EXPECT_EQ(content_of(runs_ / "velocity=1m_s"), "mine");
 }
 
 /// A limit that a study states no more does not end its runs again.
@@ -373,6 +448,8 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
   EXPECT_EQ(samples::wait_for(process), 75);
   EXPECT_TRUE(fs::exists(first / "checkpoint"));
   EXPECT_FALSE(fs::exists(runs_ / "mu=0.3"));
+  EXPECT_EQ(text_in(status(), "command_line"),
+            fmt::format("tread sweep {} -o {} --jobs 1", file.string(), runs_.string()));
 
   ASSERT_EQ(sweep(file, "--jobs 1"), 0) << errors();
   EXPECT_TRUE(has(errors(), "[mu=0.1] goes on")) << errors();
@@ -388,6 +465,35 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
   fs::remove(first / "histories.csv");
   EXPECT_EQ(sweep(file), 2);
   EXPECT_TRUE(has(errors(), "remove " + first.string() + ", and start")) << errors();
+}
+
+/// status.json as a killed study leaves it.
+TEST_F(Sweep, TheStatusOfAKilledStudyNamesTheCommandThatGoesOn) {
+  for (const char* place : {"killed/checkpoint", "elsewhere", "ended", "broken"})
+    fs::create_directories(runs_ / place);
+  for (const char* file : {"killed/checkpoint/order.h5", "ended/summary.json", "broken/failed.json"})
+    program_.write(fmt::format("runs/{}", file), "{}");
+  program_.write("runs/status.json", R"({
+  "stage": "sweep", "command": "sweep", "command_line": "tread sweep 'a b.toml' -o runs",
+  "waiting": 0, "interrupted": 1, "running": 5, "done": 1, "failed": 0,
+  "points": [{"name": "stopped", "state": "interrupted"}, {"name": "killed", "state": "running"},
+             {"name": "elsewhere", "state": "running"}, {"name": "gone", "state": "running"},
+             {"name": "done", "state": "done"}, {"name": "ended", "state": "running"},
+             {"name": "broken", "state": "running"}]
+})");
+  const RunFolder taken(runs_ / "elsewhere");
+  EXPECT_EQ(program_.call(fmt::format("ctl {} status", runs_.string())), 75);
+  EXPECT_TRUE(has(errors(), runs_.string() + ": `tread sweep 'a b.toml' -o runs` goes on")) << errors();
+  const JsonRecord shown = parse_json(program_.out(), "status");
+  EXPECT_TRUE(!truth_in(shown, "alive") && truth_in(shown, "resumable"));
+  for (const auto& [state, count] :
+       {std::pair{"interrupted", 2}, {"running", 1}, {"waiting", 1}, {"done", 2}, {"failed", 1}})
+    EXPECT_EQ(number_in(shown, state), count) << state;
+  const std::array states = {"interrupted", "interrupted", "running", "waiting", "done", "done", "failed"};
+  for (std::size_t i = 0; i < states.size(); ++i)
+    EXPECT_EQ(text_in(shown, fmt::format("points.{}.state", i)), states[i]) << i;
+  EXPECT_EQ(program_.call(fmt::format("ctl {} stop", runs_.string())), 2);
+  EXPECT_TRUE(has(errors(), "; `tread sweep 'a b.toml' -o runs` goes on")) << errors();
 }
 
 /// Points of two speeds, of which one does not reach the corrugation, and of two waves on one mesh.
@@ -444,6 +550,19 @@ TEST_F(Sweep, ResultsOfASceneThatHasMovedAreCollected) {
   } catch (const InputError& error) {
     EXPECT_TRUE(has(error.what(), "there/depth.txt of checksum ")) << error.what();
   }
+}
+
+/// 300 km/h in SI by a km/h in SI is no 300.
+TEST(StudyTable, HasTheNumbersThatTheStudyStates) {
+  const samples::Program program;
+  const fs::path file =
+      program.write("study.toml", fmt::format("[study]\nscene = \"{}/scenes/tyre.toml\"\n[grid]\n"
+                                              "motion.speed = [\"300 km/h\"]\n",
+                                              TREAD_SOURCE_DIR));
+  const StudyPlan plan = plan_study(read_study(file), program.folder / "runs");
+  const JsonRecord table = parse_json(sweep_json(plan, {}), "sweep");
+  EXPECT_EQ(number_in(table, "points.0.varied.motion.speed.value"), 300);
+  EXPECT_EQ(text_in(table, "points.0.varied.motion.speed.unit"), "km/h");
 }
 
 /// A study that goes on has part of its files already.

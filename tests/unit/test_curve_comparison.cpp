@@ -141,9 +141,12 @@ TEST(ForceCurves, NeedUnitsOfAWayAndAForce) {
     EXPECT_EQ(message("# x [m] " + force + " [N]\n1 2\n3 4\n", force), "");
     EXPECT_EQ(message("# x [m] pull [N]\n1 2\n3 4\n", force), "");
   }
-  EXPECT_NE(message("# x [m] F_N [N]\n1 2\n3 4\n", "F_L").find("named x, F_N; expected x, f_l"),
+  EXPECT_EQ(message("# x [m] f_n [N]\n1 2\n3 4\n", "F_L"),
+            "the file holds F_N, the run's F_L is compared; state --force F_N");
+  EXPECT_EQ(message("# x [m] F_L [N]\n# [m] [N]\n1 2\n3 4\n"),
+            "the file holds F_L, the run's F_N is compared; state --force F_L");
+  EXPECT_NE(message("# F_L [N] x [m]\n1 2\n3 4\n").find("named F_L, x; expected x, F_N in this order"),
             std::string::npos);
-  EXPECT_NE(message("# x [m] F_L [N]\n1 2\n3 4\n").find("named x, F_L; expected x, f_n"), std::string::npos);
 }
 
 }  // namespace

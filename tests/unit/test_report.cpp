@@ -140,6 +140,13 @@ TEST(Markup, OnlySingleLettersTakeSubscripts) {
   EXPECT_EQ(html_text("<a&\"b\">"), "&lt;a&amp;&quot;b&quot;&gt;");
 }
 
+TEST(Markup, BytesThatAreNotUtf8AreReplaced) {
+  const std::string path = "caf\xE9/d\xC3\xA9p\xC3";
+  const std::string shown = "caf\xEF\xBF\xBD/d\xC3\xA9p\xEF\xBF\xBD";
+  for (const std::string& text : {html_escaped(path), html_text(path), svg_text(path)})
+    EXPECT_EQ(text, shown);
+}
+
 TEST(Drawing, SectionsStandInContactPosition) {
   Section square;
   square.p = {-1, 1, 1, -1};

@@ -64,6 +64,7 @@ TEST_F(VtkhdfTest, HoldsWhatTheReaderAsksFor) {
   EXPECT_EQ(file.read<std::int64_t>("/VTKHDF/NumberOfPoints"), Integers{kPoints});
   EXPECT_EQ(file.read<std::int64_t>("/VTKHDF/NumberOfConnectivityIds"), Integers{8 * kCells});
   EXPECT_EQ(file.shape("/VTKHDF/Points"), (std::vector<std::uint64_t>{kPoints, 3}));
+  EXPECT_EQ(file.read_text_attribute("/VTKHDF/Points", "unit"), "m");
   EXPECT_EQ(file.shape("/VTKHDF/Connectivity"), (std::vector<std::uint64_t>{8 * kCells}));
   const Integers offsets = file.read<std::int64_t>("/VTKHDF/Offsets");
   ASSERT_EQ(offsets.size(), std::size_t{kCells + 1});
@@ -171,6 +172,8 @@ TEST_F(VtkhdfTest, AFrameShowsTheCellsOfItsMesh) {
     EXPECT_EQ(file.read<float>("/VTKHDF/CellData/stress [Pa]"), stress);
     EXPECT_EQ(file.read_text_attribute("/VTKHDF/CellData/stress [Pa]", "unit"), "Pa");
     EXPECT_EQ(file.read<double>("/VTKHDF/FieldData/time [s]"), std::vector{0.25});
+    EXPECT_EQ(file.read_text_attribute("/VTKHDF/FieldData/time [s]", "unit"), "s");
+    EXPECT_EQ(file.read_text_attribute("/VTKHDF/Points", "unit"), "m");
   }
   fs::remove(frame);
 }

@@ -38,9 +38,7 @@ FrictionLaw friction_of(const ContactSpec& spec) {
   if (spec.friction_law == "falling")
     return FallingFriction{spec.friction, spec.friction_fast, spec.friction_speed, spec.friction_memory};
   if (spec.friction_law == "coulomb") return CoulombFriction{spec.friction};
-  throw InputError(
-      fmt::format("contact.friction_law = \"{}\": no such law; state \"coulomb\", \"table\" or \"falling\"",
-                  spec.friction_law));
+  spec.refuse_friction_law();
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/model/sections.hpp"
-#include "drivers/process/machine.hpp"
 #include "drivers/report/figure_parts.hpp"
 #include "drivers/results/statistics_json.hpp"
 #include "drivers/run/scene_content.hpp"

@@ -20,10 +20,14 @@ ForceCurve read_force_curve(const std::filesystem::path& path, const std::string
   TableRules rules{.needs_units = true, .increasing = true};
   rules.first = {kLength, kTime};
   rules.second = {kForce};
-  // The other force's name is out of place in the second column.
-  rules.names = {{"x", "s", "t", "time", force == "F_N" ? "f_l" : "f_n"}, {lower_case(force), "f", "force"}};
+  const std::string other = force == "F_N" ? "F_L" : "F_N";
+  rules.names = {{"x", "s", "t", "time"}, {force, lower_case(force), lower_case(other), "f", "force"}};
   rules.example = force + " [kN]";
   TwoColumns columns = read_two_columns(path, rules);
+  if (lower_case(columns.names[1]) == lower_case(other))
+    throw ProblemsError(
+        {{path.string(), 0, 0, "",
+          fmt::format("the file holds {0}, the run's {1} is compared; state --force {0}", other, force)}});
   ForceCurve curve{path.string(), columns.dimension == kTime.dimension, std::move(columns.first),
                    std::move(columns.second)};
   if (offset.empty()) return curve;

@@ -54,8 +54,9 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   }
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
-  const DevelopmentFolder folder(options.output, resolved,
-                                 {options.from, options.threads, options.device, options.passages, room});
+  const DevelopmentFolder folder(
+      options.output, resolved,
+      {options.from, options.threads, options.device, options.passages, room, options.origin.command});
   interruption.defer();
   development.begin(folder.pass(0, nullptr, progress), *resolved.scene.corrugation);
   for (int number = 1; number <= options.passages; ++number) {

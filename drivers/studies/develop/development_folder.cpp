@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/model/sections.hpp"
-#include "drivers/process/machine.hpp"
 #include "drivers/studies/develop/passage_room.hpp"
 #include "drivers/studies/study/finished_run.hpp"
 #include "drivers/studies/study/study_runner.hpp"
@@ -179,7 +178,7 @@ Error failure(const fs::path& folder, const PointStatus& status) {
 DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& resolved, Options options)
     : folder_(made(path)), resolved_(resolved), options_(std::move(options)) {
   require_same(folder_.path(), resolved);
-  for (const char* name : {"work", "profiles"}) make_directory(folder_ / name);
+  for (const char* name : {"work", "profiles"}) create_folder(folder_ / name);
   keep_scene(folder_.path(), resolved);
   const bool begun = fs::exists(work_path(0)) || fs::exists(run_path(0) / kCheckpointFolder);
   options_.from = start_of(folder_.path(), options_.from, begun);
@@ -254,7 +253,7 @@ void DevelopmentFolder::roll(int number, const Development* before, Progress& pr
                  depth_room(kept_scene(run_path(0), resolved_.source.files).resolved.scene), resolved_,
                  options_.passages);
   plan.points.push_back(std::move(point));
-  const StudyLabel label{"develop", number, options_.passages - number};
+  const StudyLabel label{"develop", options_.command, number, options_.passages - number};
   const std::string stopped_by = StudyRunner(plan, folder_, progress, label).run(true);
   if (!stopped_by.empty())
     throw Interrupted(fmt::format("stopped by {} in passage {}; nothing is lost: the same command goes on",

@@ -22,6 +22,7 @@ class DevelopmentFolder {
     std::string device;  ///< takes the steps; empty: the processor
     int passages = 0;    ///< passages of the whole development, for progress lines
     std::optional<double> room;  ///< room_of_passage0(), where it is known
+    std::string command;         ///< command as typed, for status.json
   };
 
   /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds

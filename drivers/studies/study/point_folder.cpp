@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "drivers/engine/model/sections.hpp"
-#include "drivers/process/machine.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
@@ -27,8 +26,6 @@ namespace tread {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kFailure = "failed.json";
 
 /// The end of a log, at most 4000 B from `first` [B] on.
 std::string end_of_log(const fs::path& log, std::int64_t first) {
@@ -138,7 +135,7 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, const Scen
 
 void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
   try {
-    make_directory(folder);
+    create_folder(folder);
     write_text_file(folder / kFailure, json_text({{"exit", end.code},
                                                   {"signal", end.signal},
                                                   {"why", why},
@@ -165,42 +162,21 @@ ExitCode failed_exit_code(std::optional<double> code) {
   return ExitCode::resources;
 }
 
-const char* name_of(PointState state) {
-  switch (state) {
-    case PointState::interrupted:
-      return "interrupted";
-    case PointState::running:
-      return "running";
-    case PointState::done:
-      return "done";
-    case PointState::failed:
-      return "failed";
-    default:
-      return "waiting";
-  }
-}
-
 SceneContent process_values(const ResolvedScene& scene) {
   return content_of(scene, [](Effects effects) { return effects.only({Effect::process, Effect::stop}); });
 }
 
 PointStatus look_into(const fs::path& folder, const SceneContent& scene, const SceneFiles& files) {
   PointStatus status;
-  const CheckpointFolder checkpoints(folder / "checkpoint");
-  const bool begun = checkpoints.holds_run();
-  const bool finished = !begun && fs::exists(folder / "summary.json");
+  status.state = state_left_in(folder);
+  const bool begun = CheckpointFolder(folder / "checkpoint").holds_run();
   const bool stated = fs::exists(folder / kKeptScene);
-  if (stated && (begun || finished)) look_at_scene(folder, scene, files, status);
-  if (finished) {
-    status.state = PointState::done;
-  } else if (fs::exists(folder / kFailure)) {
+  if (stated && (begun || status.state == PointState::done)) look_at_scene(folder, scene, files, status);
+  if (status.state == PointState::failed) {
     const JsonRecord failure = failure_in(folder);
-    status.state = PointState::failed;
     if (!status.foreign) status.why = text_in(failure, "why");
     status.code = failed_exit_code(number_in(failure, "exit"));
     status.anew = !begun || (truth_in(failure, "anew") && leads_to_the_same_end(number_in(failure, "exit")));
-  } else if (begun) {
-    status.state = PointState::interrupted;
   }
   return status;
 }

@@ -8,23 +8,13 @@
 
 #include "core/error.hpp"
 #include "drivers/process/child_process.hpp"
+#include "drivers/run/point_state.hpp"
 #include "drivers/run/scene_content.hpp"
 
 namespace tread {
 
 /// Exit code of a process that failed; a code that is not the program's own counts as the machine's.
 ExitCode failed_exit_code(std::optional<double> code);
-
-enum class PointState {
-  waiting,      ///< nothing done, or nothing of use
-  interrupted,  ///< a checkpoint or an order to go on from
-  running,
-  done,
-  failed  ///< last process ended with an error
-};
-
-/// Name for readers, such as "done".
-const char* name_of(PointState state);
 
 struct PointStatus {
   PointState state = PointState::waiting;

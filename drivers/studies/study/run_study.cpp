@@ -295,7 +295,8 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   }
   progress.say(plain_text(plan_table(plan)) + fmt::format("\n[{}] {}", command, cost_text(plan, cost)));
   interruption.defer();
-  const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
+  const std::string stopped_by =
+      StudyRunner(plan, *folder, progress, {command, resume_command}).run(options.retry);
   leave(plan);
   const std::vector<FinishedRun> finished = finished_runs(plan);
   if (const std::string warnings =

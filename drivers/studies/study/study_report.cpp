@@ -34,6 +34,17 @@ std::string unit_of(const std::string& path) {
   return key && !key->unit.empty() ? key->unit : "-";
 }
 
+/// Value, rounded as in the CSV file, and unit of the key in a point's scene; a text, or "absent", has no
+/// unit.
+Json value_json(const PlannedPoint& point, const std::string& path) {
+  const std::string text = value_text(point, path);
+  const bool number = number_of(point, path).has_value();
+  Json json;
+  json["value"] = number ? Json(parse_number(text)) : Json(text);
+  if (number) json["unit"] = unit_of(path);
+  return json;
+}
+
 /// First key whose values are numbers and differ.
 std::string abscissa_key(const StudyPlan& plan) {
   for (const std::string& key : varied_keys(plan)) {
@@ -138,14 +149,17 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
 }
 
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs) {
+  const std::vector<std::string> keys = varied_keys(plan);
   Json points = Json::array();
   for (const PlannedPoint& point : plan.points) {
     Json one = {{"name", point.name}, {"state", name_of(point.status.state)}};
     if (!point.status.why.empty()) one["why"] = point.status.why;
+    for (const std::string& key : keys) one["varied"][key] = value_json(point, key);
     const FinishedRun* run = find_run(runs, point.name);
     for (const ResultColumn& column : result_columns())
       if (const auto value = run ? result_of(*run, column) : std::nullopt)
         one[column.name + (column.unit == "-" ? "" : "_" + column.unit)] = *value;
+    if (run) one["state_hash"] = text_in(run->summary, "state_hash");
     points.push_back(one);
   }
   return json_text({{"points", points}});

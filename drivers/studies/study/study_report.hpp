@@ -23,7 +23,7 @@ std::vector<std::string> varied_keys(const StudyPlan& plan);
 /// that are not done are empty.
 std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
-/// The table of sweep_csv() as JSON.
+/// The table of sweep_csv() as JSON. "varied" of a point: by key "value" and "unit", a pure number's "-".
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
 /// Distinct warnings of the runs, with the points that have them.

@@ -9,11 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "drivers/process/interruption.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
+#include "io/files/output_file.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"
@@ -38,6 +40,13 @@ int count(const StudyPlan& plan, PointState state) {
   return static_cast<int>(
       std::count_if(plan.points.begin(), plan.points.end(),
                     [state](const PlannedPoint& point) { return point.status.state == state; }));
+}
+
+/// Fails a point whose folder keeps no record of it.
+void fail_unrecorded(PlannedPoint& point, ExitCode code, std::string why) {
+  point.status.state = PointState::failed;
+  point.status.why = std::move(why);
+  point.status.code = code;
 }
 
 }  // namespace
@@ -148,8 +157,19 @@ int StudyRunner::free_card() const {
   });
 }
 
+/// Starts the point's process. A folder without use or a missing process fails this point alone.
 void StudyRunner::start(PlannedPoint& point, int threads) {
-  make_directory(point.folder);
+  try {
+    begin(point, threads);
+  } catch (const ResourceError& error) {
+    fail_unrecorded(point, error.code(), fmt::format("not begun: {}", error.what()));
+    progress_->say(fmt::format("[{}] {}", point.name, point.status.why));
+    leave_state_to_others(point);
+  }
+}
+
+void StudyRunner::begin(PlannedPoint& point, int threads) {
+  create_folder(point.folder);
   if (is_taken(point.folder)) {
     point.status = {PointState::running, "another process works on its folder"};
     progress_->say(fmt::format("[{}] left alone: {}", point.name, point.status.why));
@@ -197,10 +217,7 @@ void StudyRunner::note(PlannedPoint& point, ExitCode code, const std::function<v
     unkept = error.what();
   }
   point.status = look_into(point.folder, point.content, point.resolved.source.files);
-  if (unkept.empty()) return;
-  point.status.state = PointState::failed;
-  point.status.why = unkept;
-  point.status.code = code;
+  if (!unkept.empty()) fail_unrecorded(point, code, std::move(unkept));
 }
 
 void StudyRunner::note_ended(const Running& running) {
@@ -214,6 +231,11 @@ void StudyRunner::note_ended(const Running& running) {
   const std::string time = duration_text(progress_->seconds() - running.started);
   const std::string why = point.status.why.empty() ? "" : ": " + point.status.why;
   progress_->say(fmt::format("[{}] {} after {}{}", point.name, name_of(point.status.state), time, why));
+  leave_state_to_others(point);
+}
+
+/// Lets another point keep the state that a failed one was to keep, or fails the points that need it.
+void StudyRunner::leave_state_to_others(PlannedPoint& point) {
   for (PlannedPoint* other : replace_keeper(*plan_, point)) {
     if (std::erase(queue_, other) == 0) continue;
     fail_with(point, *other);
@@ -318,8 +340,10 @@ void StudyRunner::show() {
       fmt::format("[{}] {} of {} done", label_.command, label_.before + count(plan, PointState::done),
                   label_.before + static_cast<int>(plan.points.size()) + label_.after);
   if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
-  Json json = {
-      {"stage", running_.empty() ? "ended" : "sweep"}, {"command", label_.command}, {"process", ::getpid()}};
+  Json json = {{"stage", running_.empty() ? "ended" : label_.command},
+               {"command", label_.command},
+               {"command_line", label_.line},
+               {"process", ::getpid()}};
   for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
                                  PointState::done, PointState::failed}) {
     const int others = state == PointState::done      ? label_.before

@@ -14,11 +14,12 @@
 
 namespace tread {
 
-/// Name and count in progress lines, "[develop] 3 of 10 done".
+/// Name and count in progress lines, "[develop] 3 of 10 done", and in status.json.
 struct StudyLabel {
   std::string command = "sweep";
-  int before = 0;  ///< runs that were done before those of the plan
-  int after = 0;   ///< runs that follow those of the plan
+  std::string line = {};  ///< command as typed
+  int before = 0;         ///< runs that were done before those of the plan
+  int after = 0;          ///< runs that follow those of the plan
 };
 
 /// Runs the points: a point begins with `tread run`, with another one's state if rolling is shared, and goes
@@ -49,11 +50,13 @@ class StudyRunner {
   PlannedPoint* take_next();
   int free_card() const;
   void start(PlannedPoint& point, int threads);
+  void begin(PlannedPoint& point, int threads);
   void collect_ended();
   void note_ended(const Running& running);
   static void note(PlannedPoint& point, ExitCode code, const std::function<void()>& keep);
   bool is_being_stopped() const;
   static bool owns_folder(const Running& running);
+  void leave_state_to_others(PlannedPoint& point);
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
   void obey();
   void stop(const std::string& why);
