@@ -106,21 +106,26 @@ Travel travel_of(const Scene& scene) {
 }
 
 std::optional<double> duration_to(const Scene& scene, double x) {
-  constexpr double kSlowest = 1e-3;  // [m/s]
-  constexpr double kNear = 1e-6;     // [m]
-  constexpr int kTries = 100;        // each takes the lacking way at motion.speed
-  Scene longer = scene;
-  double& duration = longer.motion->duration;
-  for (int i = 0; i < kTries; ++i) {
-    const double lacking = x - travel_of(longer).sure;
-    if (lacking <= kNear) {
-      const double digit = std::pow(10.0, std::floor(std::log10(duration)) - 3);
-      duration = std::round(duration / digit) * digit;
-      return travel_of(longer).sure >= x ? duration : duration + digit;
-    }
-    duration += lacking / std::max(longer.motion->speed, kSlowest);
+  constexpr double kShortest = 1e-9;  // [s]; parts of a duration far too long would hide an early turn
+  constexpr int kDoublings = 60;
+  Scene tried = scene;
+  double& duration = tried.motion->duration;
+  duration = kShortest;
+  const auto suffices = [&] { return travel_of(tried).sure >= x; };
+  double below = 0;
+  for (int i = 0; !suffices(); ++i) {
+    if (i == kDoublings) return std::nullopt;
+    below = duration;
+    duration *= 2;
   }
-  return std::nullopt;
+  const double digit = std::pow(10.0, std::floor(std::log10(duration)) - 3);
+  double enough = std::ceil(duration / digit), too_few = std::floor(below / digit);
+  while (enough - too_few > 1) {
+    const double middle = std::floor(0.5 * (too_few + enough));
+    duration = middle * digit;
+    (suffices() ? enough : too_few) = middle;
+  }
+  return enough * digit;
 }
 
 }  // namespace tread

@@ -54,8 +54,8 @@ struct Travel {
 /// wheel at x = 0 without [motion].
 Travel travel_of(const Scene& scene);
 
-/// motion.duration with which the wheel of a scene with [motion] surely rolls to x [m], to four digits [s];
-/// nullopt if brakes may stop it before.
+/// Least motion.duration with which the wheel of a scene with [motion] surely rolls to x [m], to three digits
+/// [s]; nullopt if it may stop or turn back before.
 std::optional<double> duration_to(const Scene& scene, double x);
 
 }  // namespace tread

@@ -63,17 +63,18 @@ double ThirdOctave::high() const {
   return middle * std::pow(10.0, 0.05);
 }
 
-std::vector<ThirdOctave> third_octaves(double low, double high) {
+std::vector<ThirdOctave> third_octaves(double width, double high) {
   constexpr std::array<double, 10> kNominal = {1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3, 8};
   std::vector<ThirdOctave> bands;
-  if (low <= 0) return bands;
+  if (width <= 0) return bands;
   constexpr double kRounding = 1e-9;
-  for (int n = static_cast<int>(std::floor(10 * std::log10(low))); n <= 10 * std::log10(high); ++n) {
+  for (int n = static_cast<int>(std::floor(10 * std::log10(width))); n <= 10 * std::log10(high); ++n) {
     const int decade = n >= 0 ? n / 10 : (n - 9) / 10;
     const double scale = std::pow(10.0, decade);
     const ThirdOctave band{kNominal[static_cast<std::size_t>(n - 10 * decade)] * scale,
                            std::pow(10.0, 0.1 * n)};
-    if (band.low() >= low * (1 - kRounding) && band.high() <= high * (1 + kRounding)) bands.push_back(band);
+    if (band.high() - band.low() >= width * (1 - kRounding) && band.high() <= high * (1 + kRounding))
+      bands.push_back(band);
   }
   return bands;
 }

@@ -15,7 +15,10 @@ std::vector<double> power_lines(std::span<const double> values, std::size_t line
 /// unit. A line that lies between two bands counts in both by its parts; the mean does not count.
 double band_power(const std::vector<double>& lines, double spacing, double low, double high);
 
-/// Least number of waves in the record, and of samples in a wave, of a band whose power is stated.
+/// Lines over which Hann's window spreads a sine. It leaks from a band of fewer lines into the neighbours.
+inline constexpr double kLinesOfASine = 4;
+
+/// Least number of waves in the record, and of samples in a wave, of a band whose level is stated.
 inline constexpr double kWavesInRecord = 4;
 inline constexpr double kSamplesInWave = 2.5;
 
@@ -29,7 +32,7 @@ struct ThirdOctave {
   double high() const;
 };
 
-/// Bands whose edges lie within [low, high], the lowest first.
-std::vector<ThirdOctave> third_octaves(double low, double high);
+/// Bands with edges up to `high` that are at least `width` wide, the lowest first.
+std::vector<ThirdOctave> third_octaves(double width, double high);
 
 }  // namespace tread

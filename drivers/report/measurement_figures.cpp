@@ -132,7 +132,7 @@ Figure spectrum_figure(const RunResults& results) {
   if (!octaves.x.empty()) figure.panels.push_back(panel("F_N [kN]", {std::move(octaves)}, {}, 160));
   figure.caption =
       "Mean and trend taken off, Hann's window: a sine between two lines shows up to 15 % less than its "
-      "amplitude. A band holds at least four waves of the stretch.";
+      "amplitude. Bands are at least four lines wide: a sine leaks from narrower ones into their neighbours.";
   return figure;
 }
 

@@ -172,7 +172,7 @@ std::string unmet_warning(const Model& model, const std::string& name, const Sur
                ? way_warning(model, "surface." + name, place, place.last, "its forces are incomplete")
                : way_warning(model, "surface." + name, place, place.first, "it has no effect");
   }
-  if (!is_short(spec) || !scene.motion || scene.motion->speed <= 0) return "";
+  if (!is_short(spec) || stands(scene)) return "";
   const Span way = run_span(scene);
   if (!places_of(scene, spec, way).empty()) return "";
   return fmt::format(

@@ -47,7 +47,7 @@ ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, d
   const double highest = std::min(kHighest, 1 / (kSamplesInWave * interval));
   const auto lines = static_cast<std::size_t>(highest / spectrum.spacing) + 2;
   spectrum.square = power_lines(force, std::min(lines, force.size() / 2 + 1));
-  spectrum.bands = third_octaves(kWavesInRecord * spectrum.spacing, highest);
+  spectrum.bands = third_octaves(kLinesOfASine * spectrum.spacing, highest);
   for (const ThirdOctave& band : spectrum.bands)
     spectrum.rms.push_back(std::sqrt(band_power(spectrum.square, spectrum.spacing, band.low(), band.high())));
   return spectrum;

@@ -11,7 +11,7 @@ namespace tread {
 struct ForceSpectrum {
   double spacing = 0;              ///< of the lines [Hz]
   std::vector<double> square;      ///< mean squares of the lines from 0 Hz on [N2]
-  std::vector<ThirdOctave> bands;  ///< of frequency [Hz] that hold four waves and 2.5 samples a wave
+  std::vector<ThirdOctave> bands;  ///< of frequency [Hz], four lines wide, 2.5 samples a wave
   std::vector<double> rms;         ///< root mean square of F_N by band [N]
 };
 

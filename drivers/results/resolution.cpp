@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -163,6 +164,26 @@ std::string stress_depth_warning(const Model& model) {
       1e3 * *deepest, std::ceil(1e5 * quads.front().depth) / 100);
 }
 
+/// Sentence where a Maxwell branch stiffens a body at the frequency with which its points pass the patch.
+std::string branch_warning(const Model& model, const Material& material) {
+  constexpr double kStiffer = 0.1;
+  const std::optional<MaxwellBranch> branch = material.branch();
+  if (!branch || !model.scene.motion) return "";
+  const bool line = model.line_width > 0 && model.wheel_load() > 0;
+  const double half = line ? model.line_semi_axis() : model.hertz_patch.semi_axis_x;
+  const double frequency = model.scene.motion->speed / (2 * half);
+  const double w = 2 * std::numbers::pi * frequency;
+  const double square = std::pow(w * branch->time, 2);
+  const double rise = branch->strength * square / (1 + square);
+  if (rise <= kStiffer) return "";
+  const double enough = material.rayleigh_beta * w * w / (6 * std::numbers::pi * kStiffer);
+  return fmt::format(
+      "material.{0}.damping makes the contact too stiff: its branch raises the modulus by {1:.2g} % at "
+      "{2:.3g} kHz, the speed over the length of the patch, above {3:g} %; state "
+      "material.{0}.damping_up_to = \"{4:.3g} kHz\" or a smaller value of the damping",
+      material.name, 100 * rise, 1e-3 * frequency, 100 * kStiffer, 1.01e-3 * enough);
+}
+
 /// Compliances of a slab on its mortar at a point [m/N].
 struct SlabCompliance {
   double sheared;  ///< of nodes that move vertically
@@ -207,6 +228,9 @@ void add_contact_warnings(const Model& model, std::vector<std::string>& warnings
   warnings.push_back(patch_warning(model));
   warnings.push_back(edge_warning(model));
   warnings.push_back(stress_depth_warning(model));
+  const Material &of_wheel = model.scene.wheel_material(), &of_rail = model.scene.head_material();
+  warnings.push_back(branch_warning(model, of_wheel));
+  if (&of_rail != &of_wheel) warnings.push_back(branch_warning(model, of_rail));
   add_way_warnings(model, warnings);
   add_depth_warnings(model, warnings);
 }

@@ -79,19 +79,19 @@ void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
   const Span stretch = stands(scene) ? way : Span{std::max(scene.start_x(), end - span), end};
   r.steady_first = stretch.first;
   r.steady_last = stretch.last;
-  const auto mean = [&](auto value) {
-    return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
-  };
-  r.steady_samples =
-      std::count_if(r.samples.begin(), r.samples.end(), between(r.steady_first, r.steady_last));
+  const auto steady = between(r.steady_first, r.steady_last);
+  const auto mean = [&](auto value) { return statistics(r.samples, steady, value).mean; };
+  r.steady_samples = std::count_if(r.samples.begin(), r.samples.end(), steady);
+  if (const auto first = std::ranges::find_if(r.samples, steady); first != r.samples.end())
+    r.steady_begin = first->time;
   r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
   r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
   const double middle = 0.5 * (r.steady_first + r.steady_last);
   r.traction_drift = traction_between(r.samples, middle, r.steady_last) -
                      traction_between(r.samples, r.steady_first, middle);
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
-  r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last);
-  r.steady_slip_share = full_slip_share(r.samples, between(r.steady_first, r.steady_last));
+  r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last, model.wheel_radius());
+  r.steady_slip_share = full_slip_share(r.samples, steady);
   r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
   r.max_shear = mean([](const Sample& s) { return s.max_shear; });
   r.patch_area = mean([](const Sample& s) { return s.patch_area; });
@@ -132,14 +132,15 @@ bool traction_slides(const RunResults& r) {
   return r.steady_slip_share > 0.5 && (r.driven || std::abs(r.traction_coefficient) > kSmallTraction);
 }
 
-bool traction_is_steady(const RunResults& r) {
-  if (r.steady_samples == 0 || traction_slides(r)) return false;
+bool traction_is_steady(const Scene& scene, const RunResults& r) {
+  if (r.steady_samples == 0 || traction_slides(r) || (r.driven && !torque_has_settled(scene, r)))
+    return false;
   return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
 }
 
 bool torque_has_settled(const Scene& scene, const RunResults& r) {
   if (stands(scene)) return !r.driven || scene.motion->ramp <= 0;
-  return r.steady_first >= settled_torque_x(scene);
+  return r.steady_begin >= settled_torque_time(scene);
 }
 
 void evaluate(const Model& model, RunResults& r) {
@@ -164,7 +165,8 @@ Statistics measured_statistics(const Model& model, const RunResults& r, std::siz
   return values.empty() ? Statistics{kNone, kNone, kNone, kNone} : statistics(values);
 }
 
-std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
+std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last,
+                                       double radius) {
   const auto inside = between(first, last);
   const auto begin = std::find_if(samples.begin(), samples.end(), inside);
   if (begin == samples.end()) return std::nullopt;
@@ -172,7 +174,12 @@ std::optional<double> creepage_of_work(const std::vector<Sample>& samples, doubl
   const auto end = std::max_element(begin, std::find_if_not(begin, samples.end(), inside),
                                     [](const Sample& a, const Sample& b) { return a.wheel_x < b.wheel_x; });
   const std::span<const Sample> passage(&*begin, static_cast<std::size_t>(end - begin) + 1);
-  const double way = end->wheel_x - begin->wheel_x;
+  double way = 0;  // of the mean of rim and forward speed [m]
+  for (std::size_t i = 1; i < passage.size(); ++i) {
+    const Sample &from = passage[i - 1], &to = passage[i];
+    const double rolled = radius * 0.5 * (from.wheel_spin + to.wheel_spin) * (to.time - from.time);
+    way += 0.5 * std::abs(rolled + to.wheel_x - from.wheel_x);
+  }
   const double force = statistics(passage, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
   if (way <= 0 || std::abs(traction_between(passage, first, last)) < kSmallTraction) return std::nullopt;
   return (end->energy.frictional_work - begin->energy.frictional_work) / (way * force);

@@ -198,7 +198,7 @@ Json percent_or_null(const std::optional<double>& share) {
   return share ? Json(100 * *share) : Json();
 }
 
-void add_rolling_contact(const RunResults& r, Json& json) {
+void add_rolling_contact(const Model& model, const RunResults& r, Json& json) {
   json["vertical_force_N"] = statistics_json(r.vertical_force);
   json["dynamic_factor"] = r.dynamic_factor();
   json["vertical_force_third_octaves"] = octaves_json(r);
@@ -208,7 +208,7 @@ void add_rolling_contact(const RunResults& r, Json& json) {
   json["vertical_force_steady_N"] = r.vertical_force_steady;
   json["traction_coefficient"] = r.traction_coefficient;
   json["traction_drift"] = r.traction_drift;
-  json["traction_steady"] = traction_is_steady(r);
+  json["traction_steady"] = traction_is_steady(model.scene, r);
   json["creepage_percent"] = 100 * r.creepage;
   json["creepage_of_frictional_work_percent"] = percent_or_null(r.creepage_of_work);
   json["creepage_max_percent"] = 100 * r.creepage_max;
@@ -246,7 +246,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["warnings"] = r.warnings;
   if (model.contact) add_static_contact(model, r, json);
   if (r.samples.empty()) return json_text(json);  // a static scene
-  if (model.contact) add_rolling_contact(r, json);
+  if (model.contact) add_rolling_contact(model, r, json);
   if (r.measured.columns() > 0) json["measured"] = measured_json(model, r);
   json["energy_error"] = r.energy_error;
   if (model.contact) json["energy_error_over_frictional_work"] = r.energy_error_of_work;

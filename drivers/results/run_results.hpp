@@ -82,7 +82,7 @@ struct RunResults {
       0;                      ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
   double traction_drift = 0;  ///< of the means over its second half and its first [-]
   double creepage = 0;        ///< mean of 28 points of the tread there [-]
-  std::optional<double> creepage_of_work;  ///< frictional work per way over F_L there, if F_L counts [-]
+  std::optional<double> creepage_of_work;  ///< of the frictional work there, if F_L counts [-]
   double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
   double full_slip_share = 0;    ///< of the samples in contact there, those whose whole patch slides [-]
   double steady_slip_share = 0;  ///< the same, of the steady stretch [-]
@@ -97,6 +97,7 @@ struct RunResults {
   std::int64_t evaluated_samples = 0;              ///< within it
   double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
   std::int64_t steady_samples = 0;                 ///< within it
+  double steady_begin = 0;                         ///< time of the first of them [s]
   std::vector<std::string> warnings;               ///< sentences for the user (run_warnings.hpp)
   double frictional_work_decrease = 0;             ///< largest fall between two samples, 0 when monotone [J]
 };
@@ -108,21 +109,23 @@ void evaluate(const Model& model, RunResults& results);
 inline constexpr double kSmallTraction = 0.005;
 
 /// Creepage of the frictional work between two places of the wheel [m], as it first rolls ahead from one
-/// to the other: work per way over the mean of F_L.
+/// to the other: work over the mean of F_L, per way of the mean of rim and forward speed. `radius`: of the
+/// rim [m].
 /// Nothing without way, or where F_L is too small against F_N. [theory.md, eq. 13a]
-std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last);
+std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last,
+                                       double radius);
 
 /// Returns true if the whole patch slides in most samples of the steady stretch, of a driven wheel or under
 /// more than kSmallTraction.
 bool traction_slides(const RunResults& results);
 
-/// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
-/// 0.005 where the traction is small, and the patch does not slide.
-bool traction_is_steady(const RunResults& results);
-
-/// Returns true if the torque of a scene with [motion] no longer rises, nor has just risen, over the steady
-/// stretch. That of a wheel that stands is the whole run.
+/// Returns true if the torque of a scene with [motion] no longer rises, nor has just risen, at the first
+/// sample of the steady stretch. That of a wheel that stands is the whole run.
 bool torque_has_settled(const Scene& scene, const RunResults& results);
+
+/// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
+/// 0.005 where the traction is small, the patch does not slide and the torque of a driven wheel has settled.
+bool traction_is_steady(const Scene& scene, const RunResults& results);
 
 /// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values
 /// that were not measured do not count, and without others all are NaN.

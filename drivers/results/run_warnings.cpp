@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/engine/start/traction.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
@@ -51,6 +53,21 @@ std::string run_in_warning(const Preload& preload) {
       100 * preload.run_in_change, 100 * kRestless);
 }
 
+/// Sentence where the static state, which is elastic, yields as soon as the wheel rolls. F_N alone may have
+/// another cause.
+std::string yield_warning(const RunResults& r) {
+  constexpr double kYieldedShare = 0.1;
+  const double load = -r.preload.contact.force_on_rail.z;
+  const double first = r.samples.front().vertical_force;
+  const bool yielded = !r.origin && r.samples.front().energy.plastic_work > 0;
+  if (!yielded || std::abs(first - load) <= kYieldedShare * load) return "";
+  return fmt::format(
+      "F_N is {:.4g} kN in the first sample and {:.4g} kN at rest, more than {:g} % apart: the static "
+      "state is elastic, and wheel or rail yields in the first step; let the wheel roll further before what "
+      "is evaluated",
+      1e-3 * first, 1e-3 * load, 100 * kYieldedShare);
+}
+
 /// Residual over what was dissipated or stored above which results are doubted. Sound runs without friction,
 /// which dissipate little, have had 0.1.
 constexpr double kEnergyError = 0.5;
@@ -64,20 +81,44 @@ std::string balance_warning(const Model& model, const RunResults& r) {
       100 * r.energy_error, 100 * kEnergyError, uncounted_loss(model));
 }
 
+/// What moves the steady stretch on, "a later solution_zone.start": it ends with the run, ahead of the
+/// corrugation or with the zone.
+const char* later_stretch(const Model& model, const RunResults& r) {
+  if (r.reached <= r.steady_last) return "a longer motion.duration";
+  return model.contact->corrugation().smooth() ? "a later solution_zone.start" : "a later corrugation.start";
+}
+
+/// Sentence where the torque rises along the steady stretch.
+std::string torque_warning(const Model& model, const RunResults& r) {
+  const std::string rises = fmt::format(
+      "the torque of motion.traction still rises or has just risen on the steady stretch (x = {:.3f} to "
+      "{:.3f} m): traction and creepage are not steady there",
+      r.steady_first, r.steady_last);
+  if (stands(model.scene)) return rises + "; motion.traction.ramp = 0 lets it act from the start on";
+  const double time = settled_torque_time(model.scene);
+  const auto settled = std::ranges::find_if(r.samples, [&](const Sample& s) { return s.time >= time; });
+  const std::string place =
+      settled == r.samples.end() ? "after the run's end" : fmt::format("x = {:.3f} m", settled->wheel_x);
+  return fmt::format(
+      "{}; it counts as settled from {:.4g} ms on, {}: a smaller motion.traction.ramp or {} gives it the way",
+      rises, 1e3 * time, place, later_stretch(model, r));
+}
+
 std::string steadiness_warning(const Model& model, const RunResults& r) {
-  if (full_torque(model) == 0 || r.steady_samples == 0 || traction_is_steady(r)) return "";
+  if (full_torque(model) == 0 || r.steady_samples == 0 || traction_is_steady(model.scene, r)) return "";
   if (traction_slides(r))
     return fmt::format(
         "the whole patch slides in {:.0f} % of the samples of the steady stretch (x = {:.3f} to {:.3f} m): "
         "friction does not carry the torque of motion.traction, so that the wheel spins up or brakes to a "
         "stop",
         100 * r.steady_slip_share, r.steady_first, r.steady_last);
+  if (!torque_has_settled(model.scene, r)) return torque_warning(model, r);
   const double half = 0.5 * r.traction_drift;
   return fmt::format(
       "F_L / F_N goes from {:.4f} to {:.4f} along the steady stretch (x = {:.3f} to {:.3f} m): traction and "
-      "creepage are not steady there; a smaller motion.traction.ramp or a later solution_zone.start gives it "
-      "the way",
-      r.traction_coefficient - half, r.traction_coefficient + half, r.steady_first, r.steady_last);
+      "creepage are not steady there; a smaller motion.traction.ramp or {} gives it the way",
+      r.traction_coefficient - half, r.traction_coefficient + half, r.steady_first, r.steady_last,
+      later_stretch(model, r));
 }
 
 /// Sentence where no sample lies in the stretch that the summary evaluates.
@@ -121,6 +162,7 @@ std::string hourglass_warning(const std::string& body, const DeformationEnergy& 
 
 void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<std::string>& warnings) {
   if (model.contact) {
+    warnings.push_back(yield_warning(r));
     warnings.push_back(empty_warning(r));
     warnings.push_back(interval_warning(r));
     warnings.push_back(empty_steady_warning(r));

@@ -18,7 +18,7 @@ namespace {
 /// Sentence on the duration with which the wheel surely rolls to x [m].
 std::string way_to(const Model& model, double x) {
   const std::optional<double> duration = duration_to(model.scene, x);
-  if (!duration) return "the brakes may stop it before";
+  if (!duration) return "motion.traction may stop it or turn it back before";
   const std::string text = fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *duration);
   Scene longer = model.scene;
   longer.motion->duration = *duration;
@@ -65,6 +65,21 @@ std::string fastening_warning(const Scene& scene) {
       way.first, first, f.first - more * f.spacing, f.count + more);
 }
 
+/// Sentence where a table of friction that varies lies beyond all that the wheel touches.
+std::string friction_table_warning(const Scene& scene) {
+  const ContactSpec& contact = *scene.contact;
+  if (contact.friction_law != "table" || contact.least_friction() == contact.largest_friction()) return "";
+  const double first = contact.friction_start + contact.friction_x.front();
+  const double last = contact.friction_start + contact.friction_x.back();
+  const Span way = run_span(scene);
+  if (first < way.last && last > way.first) return "";
+  return fmt::format(
+      "contact.friction_file covers x = {:.4g} to {:.4g} m, but the wheel touches the rail from x = {:.4g} "
+      "to {:.4g} m: f is constant there, {:.4g}; change contact.friction_start",
+      first, last, way.first, way.last,
+      first < way.last ? contact.friction_at_x.back() : contact.friction_at_x.front());
+}
+
 }  // namespace
 
 std::string way_warning(const Model& model, const std::string& what, const Span& aim, double enough,
@@ -76,7 +91,7 @@ std::string way_warning(const Model& model, const std::string& what, const Span&
         "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that {}; let it lie ahead "
         "of the start",
         scene.start_x(), what, aim.first, aim.last, lost);
-  if (scene.motion->speed <= 0) return "";
+  if (stands(scene)) return "";
   const Travel way = travel_of(scene);
   if (way.sure >= enough) return "";
   const bool may = way.sure < way.last;
@@ -93,6 +108,7 @@ void add_way_warnings(const Model& model, std::vector<std::string>& warnings) {
     warnings.push_back(way_warning(model, fmt::format("zone.{}", name), {zone.start, zone.end()}, zone.start,
                                    "its elements have no effect on the rail"));
   warnings.push_back(fastening_warning(scene));
+  warnings.push_back(friction_table_warning(scene));
 }
 
 }  // namespace tread

@@ -19,6 +19,7 @@
 #include "drivers/studies/paper/paper_verdicts.hpp"
 #include "drivers/studies/study/study_plan.hpp"
 #include "drivers/studies/study/study_report.hpp"
+#include "io/text/json.hpp"
 #include "tests/program.hpp"
 
 namespace tread {
@@ -123,6 +124,30 @@ TEST_F(MadeUpRun, ForcesAreComparedWithTheStaticLoadAndWithOneAnother) {
   const auto difference = vertical_difference(smooth, smooth, 0.028);
   ASSERT_TRUE(difference);
   EXPECT_NEAR(*difference, 0, 1e-9);
+}
+
+/// The torque is settled at 1.5 times 5 ms, x = 0.625 m.
+TEST_F(MadeUpRun, ACreepageUnderARisingTorqueIsNoDivisor) {
+  std::string text = "time [s],wheel_x [m],vertical_force [N],creepage_node [-],creepage_mean [-]\n";
+  for (int i = 0; i <= 3050; ++i)
+    text += fmt::format("{:.9g},{:.9g},{:.9g},0.004,0.003\n", 1e-3 * i / kSpeed, 1e-3 * i, wave(0)(1e-3 * i));
+  program_.write("histories.csv", text);
+  FinishedRun d = run(corrugated());
+  const auto judged = [&](double steady_from) {
+    d.summary = parse_json(fmt::format("{{\"steady_x_m\": [{}, 2.38], \"evaluated_x_m\": [2.44, 2.92], "
+                                       "\"creepage_percent\": 0.2, \"full_slip_share\": 0.1}}",
+                                       steady_from),
+                           "summary");
+    PassageRuns runs;
+    runs.add(corrugated(), d);
+    return paper_conclusions()[2].judge(runs);
+  };
+  EXPECT_EQ(judged(1.7).verdict, Verdict::reproduced);
+  EXPECT_NEAR(creepage_ratio(d, "creepage_node").value(), 2, 1e-9);
+  const Judgement rising = judged(0.6);
+  EXPECT_EQ(rising.verdict, Verdict::not_run);
+  EXPECT_NE(rising.why.find("a steady creepage"), std::string::npos) << rising.why;
+  EXPECT_FALSE(creepage_ratio(d, "creepage_mean"));
 }
 
 TEST_F(MadeUpRun, LostContactCountsFromTheFirstTroughOn) {

@@ -1,5 +1,6 @@
 // Warnings of scenes whose mesh, samples, way or depths do not show what they ask for.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,6 +62,49 @@ TEST(FasteningWarning, NamesKeysThatFillTheRail) {
       any_has(track("0.1 m", "1.6 m", "1"), "carries the rail beyond it; state fastenings.count = 4"));
   EXPECT_TRUE(any_has(track("1.3 m", "0.2 m", "2"),
                       "ahead of it; state fastenings.first = \"0.1 m\" and fastenings.count = 4"));
+}
+
+TEST(WayWarning, IsOfAWheelThatIsDrivenFromRest) {
+  const auto at_rest = [](Overrides more) {
+    for (const char* key : {"motion.speed=0 m/s", "motion.duration=10 ms"}) more.emplace_back(key);
+    return of_tyre(more);
+  };
+  const auto under = [&](const char* torque) {
+    return at_rest({std::string("motion.traction.torque=") + torque, "motion.traction.ramp=0 ms"});
+  };
+  const std::string zone = "reach the solution zone, x = 0.05 to 0.1 m";
+  EXPECT_FALSE(any_has(at_rest({}), zone));
+  EXPECT_TRUE(any_has(under("6 kN m"), "may not " + zone));
+  EXPECT_TRUE(any_has(under("6 kN m"), "passes it"));
+  EXPECT_TRUE(any_has(under("-6 kN m"), "motion.traction may stop it or turn it back before"));
+}
+
+TEST(FrictionTableWarning, IsOfRowsBeyondTheWay) {
+  const samples::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path / "f.txt";
+  std::ofstream(path) << "# x [m]  f [-]\n0 0.4\n1 0.3\n";
+  const auto from = [&](const char* start) {
+    return of_tyre({"contact.friction_law=table", "contact.friction_file=" + path.string(),
+                    std::string("contact.friction_start=") + start});
+  };
+  EXPECT_FALSE(any_has(from("0 m"), "f is constant"));
+  EXPECT_TRUE(any_has(from("100 m"), "covers x = 100 to 101 m"));
+  EXPECT_TRUE(any_has(from("100 m"), "f is constant there, 0.4; change contact.friction_start"));
+  EXPECT_TRUE(any_has(from("-100 m"), "f is constant there, 0.3"));
+}
+
+/// With w = pi v / a: g (w tau)^2 / (1 + (w tau)^2) is 78 % of a beta of 1e-4 s up to 10 kHz.
+TEST(BranchWarning, IsOfAContactThatADampingStiffens) {
+  const auto damped = [](const char* beta, const char* up_to) {
+    return of_tyre(
+        {fmt::format("material.steel.damping={{ kind = \"rayleigh_beta\", value = \"{}\" }}", beta),
+         fmt::format("material.steel.damping_up_to={}", up_to)});
+  };
+  const std::string stiff =
+      "material.steel.damping makes the contact too stiff: its branch raises the modulus";
+  EXPECT_TRUE(any_has(damped("1e-4 s", "10 kHz"), stiff + " by 78 % at 6.2"));
+  EXPECT_FALSE(any_has(damped("1e-4 s", "100 kHz"), stiff));
+  EXPECT_FALSE(any_has(damped("1e-5 s", "10 kHz"), stiff));
 }
 
 /// On mortar of 10 MPa a slab of 0.4 m, 0.2 m thick, lacks 8 % of a fastening's compliance.

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,14 +27,19 @@
 namespace tread {
 namespace {
 
-constexpr double kForce = 25e3;  // [N]
+constexpr double kForce = 25e3;   // [N]
+constexpr double kRadius = 0.43;  // [m]
+constexpr double kSpeed = 80;     // [m/s]
 
-/// Samples of a wheel that rolls 1 m and does the frictional work `creepage` times |F_L| times its way.
-std::vector<Sample> rolling(double force, double creepage) {
+/// Samples of a wheel that rolls 1 m and does the frictional work `creepage` times |F_L| times its way, with
+/// a spin over that of rolling.
+std::vector<Sample> rolling(double force, double creepage, double spin = 1) {
   std::vector<Sample> samples;
   for (int i = 0; i <= 100; ++i) {
     Sample sample;
     sample.wheel_x = 0.01 * i;
+    sample.time = sample.wheel_x / kSpeed;
+    sample.wheel_spin = spin * kSpeed / kRadius;
     sample.vertical_force = 80e3;
     sample.longitudinal_force = force;
     sample.energy.frictional_work = creepage * kForce * sample.wheel_x;
@@ -43,46 +49,61 @@ std::vector<Sample> rolling(double force, double creepage) {
 }
 
 TEST(CreepageOfWork, IsTheWorkPerWayOverTheForce) {
-  EXPECT_NEAR(creepage_of_work(rolling(kForce, 0.0027), 0.2, 0.8).value(), 0.0027, 1e-12);
-  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 0.0027), 0.2, 0.8).value(), -0.0027, 1e-12);  // braking
+  EXPECT_NEAR(creepage_of_work(rolling(kForce, 0.0027), 0.2, 0.8, kRadius).value(), 0.0027, 1e-12);
+  // Braking:
+  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 0.0027), 0.2, 0.8, kRadius).value(), -0.0027, 1e-12);
+}
+
+/// A locked wheel does the work F_L times its way; its creepage of eq. (13) is -2.
+TEST(CreepageOfWork, IsThatOfTheMeanSpeedUnderLargeSlip) {
+  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 1, 0), 0.2, 0.8, kRadius).value(), -2, 1e-9);
+  EXPECT_NEAR(creepage_of_work(rolling(kForce, 2, 3), 0.2, 0.8, kRadius).value(), 1, 1e-9);
 }
 
 TEST(CreepageOfWork, IsAbsentWithoutForceOrWay) {
-  EXPECT_FALSE(creepage_of_work(rolling(0, 0), 0.2, 0.8));
-  EXPECT_FALSE(creepage_of_work(rolling(0.004 * 80e3, 0.0027), 0.2, 0.8));  // work of spin
-  EXPECT_TRUE(creepage_of_work(rolling(0.006 * 80e3, 0.0027), 0.2, 0.8));
-  EXPECT_FALSE(creepage_of_work(rolling(kForce, 0.0027), 2.0, 3.0));
-  EXPECT_FALSE(creepage_of_work({}, 0.2, 0.8));
+  EXPECT_FALSE(creepage_of_work(rolling(0, 0), 0.2, 0.8, kRadius));
+  EXPECT_FALSE(creepage_of_work(rolling(0.004 * 80e3, 0.0027), 0.2, 0.8, kRadius));  // work of spin
+  EXPECT_TRUE(creepage_of_work(rolling(0.006 * 80e3, 0.0027), 0.2, 0.8, kRadius));
+  EXPECT_FALSE(creepage_of_work(rolling(kForce, 0.0027), 2.0, 3.0, kRadius));
+  EXPECT_FALSE(creepage_of_work({}, 0.2, 0.8, kRadius));
 }
 
 TEST(Traction, IsSteadyIfItsHalvesAgree) {
+  const Scene scene = samples::tyre_scene({"motion.traction.torque=6 kN m", "motion.traction.ramp=1 ms"});
   RunResults results;
-  EXPECT_FALSE(traction_is_steady(results));  // without a sample
+  const auto steady = [&] { return traction_is_steady(scene, results); };
+  EXPECT_FALSE(steady());  // without a sample
   results.steady_samples = 1;
   results.traction_coefficient = 0.3;
   results.traction_drift = 0.0149;
-  EXPECT_TRUE(traction_is_steady(results));
+  EXPECT_TRUE(steady());
   results.traction_drift = -0.0151;
-  EXPECT_FALSE(traction_is_steady(results));
+  EXPECT_FALSE(steady());
   results.traction_drift = 0;
   results.steady_slip_share = 0.6;
-  EXPECT_FALSE(traction_is_steady(results)) << "the wheel spins up";
+  EXPECT_FALSE(steady()) << "the wheel spins up";
   // A wheel that rolls freely has no traction to compare with.
   results.traction_coefficient = 0.001;
   results.traction_drift = 0.0049;
-  EXPECT_TRUE(traction_is_steady(results));
+  EXPECT_TRUE(steady());
   results.driven = true;
-  EXPECT_FALSE(traction_is_steady(results)) << "friction carries nothing of the torque";
+  EXPECT_FALSE(steady()) << "friction carries nothing of the torque";
+  results.steady_slip_share = 0;
+  results.steady_begin = 1.4e-3;
+  EXPECT_FALSE(steady()) << "the torque has just risen";
+  results.steady_begin = 1.6e-3;
+  EXPECT_TRUE(steady());
 }
 
-constexpr double kWay = 1e-3;         ///< between samples [m]
-constexpr double kApart = kWay / 80;  ///< between samples [s]
+constexpr double kWay = 1e-3;             ///< between samples [m]
+constexpr double kApart = kWay / kSpeed;  ///< between samples [s]
 
 /// Sample `i` of a wheel at the place `at`, counted in kWay, that brakes or drives with 16 kN and 10 J.
 Sample sample_at(int i, double at) {
   Sample sample;
   sample.time = kApart * i;
   sample.wheel_x = kWay * at;
+  sample.wheel_spin = kSpeed / kRadius;
   sample.vertical_force = 80e3;
   sample.longitudinal_force = 16e3;
   sample.creepage_mean = 0.002;
@@ -133,6 +154,23 @@ TEST(Evaluate, FillsTheFiguresFromTheSamples) {
   EXPECT_NEAR(r.creepage_of_work.value(), 1000 / (0.1 * 16e3), 1e-9);
   EXPECT_NEAR(r.steady_slip_share, 25.0 / 101, 1e-12);
   EXPECT_EQ(r.max_pressure, 1e9);
+}
+
+/// From 1 m/s the wheel is soon much faster: it comes to the steady stretch before the ramp ends.
+TEST(Evaluate, ATorqueSettlesByTheTimeOfTheSamples) {
+  const Model model =
+      zoned_model({"motion.speed=1 m/s", "motion.traction.torque=6.9 kN m", "motion.traction.ramp=1 ms"});
+  for (const bool settled : {false, true}) {
+    RunResults r;
+    r.dt = 1e-6;
+    for (int i = 0; i <= 200; ++i) {
+      r.samples.push_back(sample_at(i, i));
+      r.samples.back().time += settled ? 1e-3 : 0;
+    }
+    evaluate(model, r);
+    EXPECT_NEAR(r.steady_begin, 50 * kApart + (settled ? 1e-3 : 0), 1e-12);
+    EXPECT_EQ(traction_is_steady(model.scene, r), settled);
+  }
 }
 
 /// Brakes stop the wheel at x = 0.2 m and drive it back to -0.2 m. The samples of the way back lie between
@@ -234,6 +272,60 @@ TEST(Warnings, AGuidedWheelWhoseTorqueFrictionDoesNotCarry) {
   }));
 }
 
+/// The corrugation bounds the steady stretch, or the zone, or the end of the run.
+TEST(Warnings, ATractionThatIsNotSteadyNamesTheKeyThatHelps) {
+  const std::vector<std::string> driven = {"scene.element_size=12 mm", "motion.traction.torque=6 kN m",
+                                           "motion.traction.ramp=1 ms"};
+  std::vector<std::string> corrugated = driven;
+  corrugated.insert(corrugated.end(), {"corrugation.start=50 mm", "corrugation.length=50 mm",
+                                       "corrugation.wavelength=50 mm", "corrugation.depth=0.01 mm"});
+  const Model smooth(samples::tyre_scene(driven));
+  const Model rough(samples::tyre_scene(corrugated), 0.0);
+  RunResults r;
+  r.samples = {sample_at(0, 0), sample_at(121, 125), sample_at(200, 200)};
+  r.steady_samples = 1;
+  r.driven = true;
+  r.traction_coefficient = 0.2;
+  r.traction_drift = 0.02;
+  r.steady_last = 0.25;
+  const auto says = [&](const Model& model, const std::string& part) {
+    return std::ranges::any_of(run_warnings(model, r), [&](const std::string& warning) {
+      return warning.find(part) != std::string::npos;
+    });
+  };
+  for (const auto& [first, text] :
+       {std::pair(1.4e-3,
+                  "it counts as settled from 1.5 ms on, x = 0.125 m: a smaller motion.traction.ramp or "),
+        std::pair(1.6e-3, "not steady there; a smaller motion.traction.ramp or ")}) {
+    r.steady_begin = first;
+    r.reached = 0.3;
+    EXPECT_TRUE(says(smooth, std::string(text) + "a later solution_zone.start gives")) << first;
+    EXPECT_TRUE(says(rough, std::string(text) + "a later corrugation.start gives")) << first;
+    r.reached = 0.25;
+    EXPECT_TRUE(says(rough, std::string(text) + "a longer motion.duration gives")) << first;
+  }
+}
+
+TEST(Warnings, AStaticStateThatYieldsInTheFirstStep) {
+  const Model model(samples::tyre_scene(
+      {"scene.element_size=12 mm", "material.steel.law=j2", "material.steel.yield_stress=50 MPa"}));
+  RunResults r;
+  r.samples.resize(1);
+  r.preload.contact.force_on_rail.z = -88e3;
+  const auto warns = [&](double force) {
+    r.samples.front().vertical_force = force;
+    return std::ranges::any_of(run_warnings(model, r), [](const std::string& warning) {
+      return warning.find("yields in the first step") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(warns(64e3)) << "nothing has yielded";
+  r.samples.front().energy.plastic_work = 1;
+  EXPECT_TRUE(warns(64e3));
+  EXPECT_FALSE(warns(82e3));
+  r.origin.emplace();
+  EXPECT_FALSE(warns(64e3)) << "the first sample of a fork is that of a dynamic state";
+}
+
 /// The 20 mm to the rail's end that the scene's check asks for are too few for a large wheel.
 TEST(Warnings, AWayThatIsTooShortKeepsRoomForTheSearch) {
   const Model model(
@@ -257,9 +349,9 @@ TEST(Warnings, AWayUnderATorqueIsTheSureOne) {
   };
   EXPECT_TRUE(has({"motion.traction.torque=-15 kN m", "motion.duration=20 ms", "solution_zone.start=120 mm"},
                   "m and may not reach the solution zone, x = 0.12 to 0.17 m, so that the run's values are "
-                  "those of the way from the start; the brakes may stop it before"));
+                  "those of the way from the start; motion.traction may stop it or turn it back before"));
   EXPECT_TRUE(has({"motion.traction.torque=15 kN m", "motion.duration=1 ms", "solution_zone.start=220 mm"},
-                  "passes it, with rail.length = \"0.7 m\""));
+                  "motion.duration = \"21.38 ms\" passes it, with rail.length = \"0.6 m\""));
 }
 
 TEST(Warnings, EnergiesThatDoNotBalance) {

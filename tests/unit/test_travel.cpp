@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -134,6 +135,17 @@ TEST(Travel, ADurationIsThatOfTheSureWay) {
   EXPECT_FALSE(duration_to(scene, 0.015));
 }
 
+/// Of 1000 parts of an hour the first holds all of the way ahead.
+TEST(Travel, ADurationIsFoundBeforeAnEarlyTurn) {
+  Scene scene = wheelset("speed = \"10 m/s\"\nduration = \"1 ms\"\ntraction.ramp = \"0 ms\"");
+  scene.motion->traction_mu = -0.5;
+  scene.motion->duration = 3600;
+  const double a = 0.5 * kLoad / 926;
+  const double x = 0.9 * 50 / a;
+  const double least = (10 - std::sqrt(100 - 2 * a * x)) / a;
+  EXPECT_NEAR(duration_to(scene, x).value_or(0), least, 2e-3 * least);
+}
+
 /// Mass of the ring of steel [kg].
 constexpr double kRing = 7850 * std::numbers::pi * (0.43 * 0.43 - 0.37 * 0.37) * 0.06;
 
@@ -153,6 +165,19 @@ TEST(Travel, RingsKeepTheirSpeedWhenGuided) {
   EXPECT_NEAR(travel_of(ring("guided", driven)).last, 0.2, 1e-12);
   const double a = 0.2 * (10e3 + kRing * 9.81) / kRing;
   EXPECT_NEAR(travel_of(ring("free", driven)).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
+}
+
+/// The wheel is soon much faster than at its start, and the scene's duration may be longer than needed.
+TEST(Travel, ADurationIsTheLeastOfADrivenWheel) {
+  Scene scene = ring("free", "speed = \"1 km/h\"\ntraction.mu = 0.2\ntraction.ramp = \"0 ms\"");
+  const double v = scene.motion->speed, a = 0.2 * (10e3 + kRing * 9.81) / kRing;
+  const double least = (std::sqrt(v * v + 2 * a * 0.4) - v) / a;
+  for (const double stated : {1e-3, 0.02, 2.0}) {
+    scene.motion->duration = stated;
+    EXPECT_NEAR(duration_to(scene, 0.4).value(), least, 2e-3 * least) << stated;
+  }
+  scene.motion->speed = 0;
+  EXPECT_NEAR(duration_to(scene, 0.4).value(), std::sqrt(2 * 0.4 / a), 2e-3 * least);
 }
 
 /// The slip of a creepage of 0.5 is two thirds of the speed; a thin ring's spin gives half of it at the most.

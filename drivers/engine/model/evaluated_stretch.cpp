@@ -1,5 +1,7 @@
 #include "drivers/engine/model/evaluated_stretch.hpp"
 
+#include "core/travel.hpp"
+
 namespace tread {
 
 Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation) {
@@ -10,8 +12,14 @@ Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation) {
   return {corrugation.first() + half_wave, corrugation.last() - half_wave};
 }
 
+double settled_torque_time(const Scene& scene) {
+  return 1.5 * scene.motion->ramp;
+}
+
 double settled_torque_x(const Scene& scene) {
-  return scene.start_x() + 1.5 * scene.motion->ramp * scene.motion->speed;
+  Scene rising = scene;
+  rising.motion->duration = settled_torque_time(scene);
+  return travel_of(rising).last;
 }
 
 }  // namespace tread

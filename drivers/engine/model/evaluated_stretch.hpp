@@ -11,7 +11,10 @@ namespace tread {
 /// a smooth rail.
 Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation);
 
-/// Place from which the torque of a scene with [motion] counts as settled: half a ramp beyond its end [m].
+/// Time from which the torque of a scene with [motion] counts as settled: half a ramp beyond its end [s].
+double settled_torque_time(const Scene& scene);
+
+/// Foremost place of the wheel at that time, by travel_of() [m].
 double settled_torque_x(const Scene& scene);
 
 }  // namespace tread

@@ -44,7 +44,7 @@ std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoint
   if (!has_sine(run)) return std::nullopt;
   const std::vector<double> values = evaluated(run, curve);
   const Statistics all = statistics(values);
-  if (values.empty() || all.deviation == 0) return std::nullopt;
+  if (values.empty() || all.constant()) return std::nullopt;
   const Span stretch = evaluated_stretch(run.scene, run.corrugation());
   WavePattern pattern;
   for (const int order : {1, 2}) {
@@ -148,11 +148,17 @@ std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRu
   return most / load;
 }
 
+std::optional<double> steady_creepage(const FinishedRun& run) {
+  const std::optional<double> first = run.number("steady_x_m.0");
+  if (!first || *first < settled_torque_x(run.scene)) return std::nullopt;
+  return run.number("creepage_percent");
+}
+
 std::optional<double> creepage_ratio(const FinishedRun& run, const char* column) {
   const CurvePoints curve = history_over_way(run, column, "-");
   const double first = run.number("evaluated_x_m.0").value_or(0);
   const double last = run.number("evaluated_x_m.1").value_or(0);
-  const double steady = 1e-2 * run.number("creepage_percent").value_or(0);
+  const double steady = 1e-2 * steady_creepage(run).value_or(0);
   double most = 0;
   for (std::size_t i = 0; i < curve.x.size(); ++i)
     if (curve.x[i] >= first && curve.x[i] <= last) most = std::max(most, curve.y[i]);

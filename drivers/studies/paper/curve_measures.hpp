@@ -48,8 +48,11 @@ double way_without_contact(const FinishedRun& run, const CurvePoints& force);
 /// Largest difference of the runs' F_N from `time` [s] on, over the static load [-].
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time);
 
-/// Largest value of the column of creepages over the evaluated stretch, over the steady creepage of the
-/// summary [-]; nullopt if the run has not come to a crest.
+/// Steady creepage of the summary [%]; nullopt if the torque still rises or has just risen over its stretch.
+std::optional<double> steady_creepage(const FinishedRun& run);
+
+/// Largest value of the column of creepages over the evaluated stretch, over steady_creepage() [-]; nullopt
+/// without a positive one, or if the run has not come to a crest.
 std::optional<double> creepage_ratio(const FinishedRun& run, const char* column);
 
 /// F_N of the multi-body approach over the way, SI.

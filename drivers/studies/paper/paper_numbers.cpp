@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "drivers/studies/paper/curve_measures.hpp"
 #include "drivers/studies/paper/paper_figures.hpp"
@@ -46,13 +45,6 @@ Ours over_the_corrugation(const Passage& passage, std::string path, double scale
 std::optional<double> first_shift(const FinishedRun& run) {
   const std::vector<CrestPeak> peaks = vertical_peaks(run);
   return peaks.empty() ? std::nullopt : std::optional(peaks.front().shift / std::numbers::pi);
-}
-
-/// Steady creepage [%]; nullopt if the torque still rises or has just risen over the stretch.
-std::optional<double> steady_creepage(const FinishedRun& run) {
-  const std::optional<double> first = run.number("steady_x_m.0");
-  if (!first || *first < settled_torque_x(run.scene)) return std::nullopt;
-  return run.number("creepage_percent");
 }
 
 std::optional<double> smallest_by_multibody(const FinishedRun& run) {

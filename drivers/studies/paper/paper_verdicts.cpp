@@ -144,7 +144,8 @@ Judgement oscillates_to_full_sliding(const PassageRuns& runs) {
   const auto slip = run->number("full_slip_share");
   const auto at_node = creepage_ratio(*run, "creepage_node");
   const auto mean = creepage_ratio(*run, "creepage_mean");
-  if (!slip || !at_node || !mean) return missing("its share of full slip");
+  if (!slip) return missing("its share of full slip");
+  if (!at_node || !mean) return missing("a steady creepage before corrugation D");
   constexpr double kSignificant = 1.5;
   return {
       of_parts({*slip > 0 && *slip<1, *at_node> kSignificant}),
