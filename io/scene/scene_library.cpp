@@ -138,6 +138,10 @@ LibraryEntry ballasted_cn60() {
               {"fastenings.first", "0.1 m", kChosen},
               {"fastenings.stiffness", "225 MN/m", kTrack},
               {"fastenings.damping", "9 kN s/m", "Table 1, loss factor 0.25, at 1 kHz"},
+              {"fastenings.along", "elastic", "the ballast yields along the track"},
+              {"fastenings.along_stiffness", "8.25 MN/m",
+               "half of a loaded track, 60 kN/m at 2 mm (UIC 774-3), by the spacing"},
+              {"fastenings.along_damping", "13 kN s/m", "as the bed: loss factor 1, at 100 Hz"},
               {"sleepers.width", "0.275 m", kTrack},
               {"sleepers.length", "1.3 m", "half of a sleeper of 2.6 m"},
               {"sleepers.height", "0.198 m", "Table 1, 170 kg by half sleeper"},
@@ -160,7 +164,7 @@ LibraryEntry ballasted_60e1() {
           {"wheel.profile", "S1002", "EN 13715"},
           {"wheel.diameter", "920 mm", "usual for coaches"},
           {"wheel.lateral_offset", "5 mm",
-           "1.5 mm off the middle of a gauge of 1435 mm, away from the jump between two places of contact"},
+           "wheels 1360 mm back to back on a gauge of 1435 mm; 1.5 mm more, away from a jump of the contact"},
       }};
 }
 
