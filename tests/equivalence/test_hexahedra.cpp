@@ -85,7 +85,8 @@ struct BothPaths {
 TEST(Hexahedra, ForceIsThatOfTheSweptPath) {
   for (const SweptBlock& block : blocks()) {
     BothPaths paths(block);
-    for (const auto& [size, angle] : {std::pair(1e-5, 0.0), {1e-5, 0.1}, {1e-4, 1.0}}) {
+    for (const auto& [size, radians] : {std::pair(1e-5, 0.0), {1e-5, 0.1}, {1e-4, 1.0}}) {
+      const double angle = radians;
       auto u = samples::random_field(paths.mesh);
       for (double& value : u) value *= size / samples::kRandomSize;
       const auto turned =
