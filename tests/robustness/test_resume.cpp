@@ -258,11 +258,13 @@ TEST(RunRequests, OfSeveralProcessesDoNotDisturbOneAnother) {
 
 TEST_F(Resume, ControlledFromOutside) {
   const pid_t process = start_rolling();
+  ::kill(process, SIGSTOP);  // on a busy machine it would end meanwhile
   EXPECT_EQ(call(run(folder_)), 4);
   EXPECT_TRUE(has(errors(), "another process works on")) << errors();
   EXPECT_EQ(call("ctl " + folder_.string() + " status"), 0);
   EXPECT_TRUE(has(content_of(root_ / "out"), fmt::format("\"process\": {}", process)));
   EXPECT_TRUE(has(content_of(root_ / "out"), "\"alive\": true"));
+  ::kill(process, SIGCONT);
   EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 0) << errors();
   EXPECT_EQ(wait_for(process), 75);
   EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 2);
