@@ -16,7 +16,7 @@ constexpr double kGravityFloor = 1e-9;
 /// twice that at its turning points: 98 times at 0.99 of the stable step.
 constexpr double kLargestExcess = 100;
 
-/// Of all drives, whatever its sign [J].
+/// Work of all drives, each by its size [J].
 double work_done(const EnergyLedger& energy) {
   double sum = 0;
   for (const EnergyKind& kind : kEnergyKinds)

@@ -81,7 +81,7 @@ std::string balance_warning(const Model& model, const RunResults& r) {
       100 * r.energy_error, 100 * kEnergyError, uncounted_loss(model));
 }
 
-/// What moves the steady stretch on, "a later solution_zone.start": it ends with the run, ahead of the
+/// Key that moves the steady stretch on, "a later solution_zone.start": it ends with the run, ahead of the
 /// corrugation or with the zone.
 const char* later_stretch(const Model& model, const RunResults& r) {
   if (r.reached <= r.steady_last) return "a longer motion.duration";

@@ -1,5 +1,5 @@
 #pragma once
-// How far the run in the folder of a study's point has come.
+// Progress of the run in the folder of a study's point.
 
 #include <filesystem>
 

@@ -1,5 +1,6 @@
 #include "io/files/file_identity.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 namespace tread {
@@ -19,6 +20,12 @@ FileIdentity::FileIdentity(std::filesystem::path path)
 
 bool FileIdentity::in_place() const {
   return known_ && device_and_number(path_) == known_;
+}
+
+bool leads_to(int folder, const char* path, int descriptor) {
+  struct stat open = {}, named = {};
+  return ::fstat(descriptor, &open) == 0 && ::fstatat(folder, path, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 }  // namespace tread

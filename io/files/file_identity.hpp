@@ -22,4 +22,7 @@ class FileIdentity {
   std::optional<std::pair<std::uint64_t, std::uint64_t>> known_;  ///< device, number; nothing: was missing
 };
 
+/// Returns true if the path, from an open folder or AT_FDCWD, leads to the open file and not to a link.
+bool leads_to(int folder, const char* path, int descriptor);
+
 }  // namespace tread

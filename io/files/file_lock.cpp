@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/files/file_identity.hpp"
 
 namespace tread {
 
@@ -46,10 +46,7 @@ int open_folder_lock(int folder, int flags) {
 
 /// Returns true if the open lock file of a folder has lost its name: the next holder would lock another file.
 bool is_removed(int folder, int descriptor) {
-  struct stat open = {}, named = {};
-  return ::fstat(descriptor, &open) != 0 ||
-         ::fstatat(folder, kFolderLock, &named, AT_SYMLINK_NOFOLLOW) != 0 || open.st_ino != named.st_ino ||
-         open.st_dev != named.st_dev;
+  return !leads_to(folder, kFolderLock, descriptor);
 }
 
 /// Request for the lock of one byte. The lock belongs to the open file, not to the process: two locks of one

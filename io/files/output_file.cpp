@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/files/file_identity.hpp"
 
 namespace tread {
 
@@ -106,14 +106,6 @@ std::filesystem::path neighbour_of(const std::filesystem::path& path, int number
   return folder / (name + ending);
 }
 
-/// Returns true if the path leads to the open regular file.
-bool leads_to(const std::filesystem::path& path, int descriptor) {
-  struct stat open {};
-  struct stat named {};
-  return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && S_ISREG(open.st_mode) &&
-         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
-}
-
 /// Calls `write` with the path of the neighbour and renames that file to `path`. Removes the neighbour if
 /// either fails.
 void rename_finished(const std::filesystem::path& path, const std::filesystem::path& part,
@@ -145,6 +137,7 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
 }
 
 Neighbour::Neighbour(const std::filesystem::path& path) {
+  std::error_code ignored;
   for (int number = 1;;) {
     path_ = neighbour_of(path, number);
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -154,7 +147,8 @@ Neighbour::Neighbour(const std::filesystem::path& path) {
     const bool locked = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
     // On a file system without locks nobody takes a new file for one that was left.
     const bool lockless = made && !locked && errno != EWOULDBLOCK;
-    const bool here = (locked || lockless) && leads_to(path_, descriptor_);
+    const bool here = (locked || lockless) && leads_to(AT_FDCWD, path_.c_str(), descriptor_) &&
+                      std::filesystem::is_regular_file(path_, ignored);
     if (made && here) return;
     const bool removed = here && ::unlink(path_.c_str()) == 0;
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));

@@ -135,7 +135,7 @@ TEST(Travel, ADurationIsThatOfTheSureWay) {
   EXPECT_FALSE(duration_to(scene, 0.015));
 }
 
-/// Of 1000 parts of an hour the first holds all of the way ahead.
+/// The first thousandth of an hour holds all of the way ahead.
 TEST(Travel, ADurationIsFoundBeforeAnEarlyTurn) {
   Scene scene = wheelset("speed = \"10 m/s\"\nduration = \"1 ms\"\ntraction.ramp = \"0 ms\"");
   scene.motion->traction_mu = -0.5;
