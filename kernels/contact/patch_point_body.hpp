@@ -14,10 +14,11 @@ namespace tread {
 /// Change of a closing speed in a step that no contact reaches: that of a pressure that jumps by 0.2 GPa
 /// [m/s].
 inline constexpr double kSpareClosing = 5;
-inline constexpr int kMostIterations = 300;
 /// Iterations with momentum, with which limits of the tractions may make them go round: three times as many
-/// as are needed.
-inline constexpr int kMostWithMomentum = 60;
+/// as the penalty by default needs. As many without momentum as end that follow, then others with it.
+inline constexpr int kWithMomentum = 60;
+inline constexpr int kWithoutMomentum = 20;
+inline constexpr int kMostIterations = 8 * (kWithMomentum + kWithoutMomentum);  ///< the last are without it
 inline constexpr double kTractionTolerance = 3e-7;  ///< last change of a traction / largest pressure
 /// Growth of a traction's change from which on the compliances are taken as too small.
 inline constexpr double kDivergence = 100;
@@ -44,9 +45,9 @@ class HeavyBall {
   }
   /// The next iteration of a step of length dt [s].
   TREAD_BODY PointIteration next(const PointSprings& springs, double dt) {
-    ++taken_;
-    if (taken_ == 1) return {springs, dt, weight_ / (1 + momentum_), 0};
-    if (taken_ > kMostWithMomentum) return {springs, dt, 1, 0};
+    const int turn = taken_++ % (kWithMomentum + kWithoutMomentum);
+    if (turn == 0) return {springs, dt, weight_ / (1 + momentum_), 0};
+    if (turn >= kWithMomentum) return {springs, dt, 1, 0};
     return {springs, dt, weight_, momentum_};
   }
 
