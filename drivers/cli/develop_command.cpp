@@ -27,6 +27,9 @@ void add_develop(CLI::App& app, const std::string& command_line) {
   command.add_option("-t,--threads", options.threads, "threads of a passage (default: all)")
       ->check(at_least(1));
   add_device_option(command, options.device);
+  command.add_option("--launcher", options.launcher,
+                     "words before each passage's command, e.g. \"srun -N1 -n1\"; there is no --slurm: a "
+                     "passage follows another");
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
   command.callback([state] {

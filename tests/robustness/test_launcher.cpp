@@ -158,6 +158,16 @@ TEST_F(Launcher, AStopReachesTheRunBehindADeafLauncher) {
   ASSERT_EQ(sweep(), 0) << errors();
 }
 
+/// As mpirun, which gives its ranks a second: too short for the checkpoint of a large mesh.
+TEST_F(Launcher, AStopLeavesTheRunTimeForItsCheckpoint) {
+  const pid_t study =
+      program_.start(command(launcher("\"$@\" &\ntrap 'kill -KILL $!' TERM\nwait $!; exit $?\n")));
+  ASSERT_TRUE(samples::wait_until([&] { return rolls(); })) << errors();
+  ::kill(study, SIGTERM);
+  EXPECT_EQ(samples::wait_for(study), 75) << errors();
+  EXPECT_EQ(text_in(read_json(point_ / "status.json"), "stage"), "stopped");
+}
+
 TEST_F(Launcher, ASignalToTheStudyAndItsStartingRunsStops) {
   for (const char* signal : {"TERM", "INT", "HUP"}) {
     EXPECT_EQ(sweep(launcher(fmt::format("kill -{0} $PPID; kill -{0} $$\nsleep 10\n", signal))), 75)

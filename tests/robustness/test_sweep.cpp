@@ -48,6 +48,16 @@ output.progress_interval = "10 ms"
 motion.traction.mu = [0.1, 0.3]
 )");
   }
+  /// One tyre that rolls far longer than a test looks at it.
+  fs::path endless_tyre() const {
+    return study("tyre.toml", R"([set]
+scene.element_size = "5 mm"
+motion.duration = "5 ms"
+output.progress_interval = "10 ms"
+[grid]
+motion.traction.mu = [0.1]
+)");
+  }
   fs::path executable(const std::string& name, const std::string& lines) const {
     fs::create_directories((program_.folder / name).parent_path());
     const fs::path path = program_.write(name, lines);
@@ -61,16 +71,27 @@ motion.traction.mu = [0.1, 0.3]
   int sweep(const fs::path& file, const std::string& more = "") const {
     return program_.call(fmt::format("sweep {} -o {} {}", file.string(), runs_.string(), more));
   }
+  std::string queued() const { return content_of(program_.folder / "queued"); }
+  bool rolls(const char* point) const {
+    return has(content_of(runs_ / point / "status.json"), "\"rolling\"");
+  }
   /// Starts an element of a job array as Slurm does, in another folder than the study's; its output goes to
-  /// "log". `more`: other variables.
+  /// "log". The element is job 7 and belongs to array 5. `more`: other variables.
   pid_t start_element(const fs::path& script, int number, const std::string& more = "") const {
     const std::string command = fmt::format(
-        "cd / && PATH={0}/bin:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={1} {3} exec bash {2} >{0}/log 2>&1",
+        "cd / && PATH={0}/bin:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_JOB_ID=5 SLURM_ARRAY_TASK_ID={1} {3} "
+        "exec bash {2} >{0}/log 2>&1",
         program_.folder.string(), number, shell_word(script.string()), more);
     return samples::child([&] {
       ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       ::_exit(127);
     });
+  }
+  /// The same, and waits until its run rolls.
+  pid_t start_rolling(const fs::path& script, const char* point) const {
+    const pid_t element = start_element(script, 0);
+    EXPECT_TRUE(samples::wait_until([&] { return rolls(point); })) << log();
+    return element;
   }
   std::string errors() const { return program_.errors(); }
   std::string log() const { return content_of(program_.folder / "log"); }
@@ -97,7 +118,10 @@ TEST_F(Sweep, RunsEveryPointOnce) {
     EXPECT_TRUE(has(report, origin)) << origin;
 
   const auto written = fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json");
+  fs::create_directory(runs_ / "figures");  // of a report that had another figure
+  program_.write("runs/figures/old.svg", "<svg/>\n<!-- figure old of a report of tread -->\n");
   ASSERT_EQ(sweep(file, "--json"), 0) << errors();
+  EXPECT_FALSE(fs::exists(runs_ / "figures"));
   const JsonRecord json = parse_json(program_.out(), "sweep");
   EXPECT_EQ(number_in(json, "points.1.varied.pulse.velocity.value"), 2);
   EXPECT_EQ(text_in(json, "points.1.varied.pulse.velocity.unit"), "m/s");
@@ -215,13 +239,7 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_TRUE(has(content_of(script),
                   fmt::format("-o {} --set 'output.progress_interval=2 ms'` collects", runs_.string())))
       << content_of(script);
-  // As mpirun, it has a code of its own for a run that was stopped.
-  const fs::path launcher = executable("launcher",
-                                       "#!/bin/bash\n\"$@\" &\ntrap 'kill -TERM $!' TERM\n"
-                                       "while wait $!; code=$?; kill -0 $! 2>/dev/null; do :; done\n"
-                                       "[[ $code != 75 ]] || exit 1\nexit $code\n");
-  ASSERT_EQ(sweep(file, fmt::format("-t 1 --launcher {} --slurm {}", launcher.string(), script.string())), 0)
-      << errors();
+  ASSERT_EQ(sweep(file, fmt::format("-t 1 --slurm {}", script.string())), 0) << errors();
   const std::string text = content_of(script);
   EXPECT_TRUE(has(text, "place=( -t 1 )")) << text;
   EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
@@ -230,20 +248,12 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   const auto element = [&](int number) { return samples::wait_for(start_element(script, number)); };
   EXPECT_EQ(element(2), 2) << log();
   // Slurm's SIGTERM at the end of the time leaves a checkpoint, and the element is queued again.
-  const pid_t first = start_element(script, 0);
-  ASSERT_TRUE(samples::wait_until([&] {
-    return has(content_of(runs_ / "mu=0.1/status.json"), "\"rolling\"");
-  })) << log();
+  const pid_t first = start_rolling(script, "mu=0.1");
   ::kill(first, SIGTERM);
   EXPECT_EQ(samples::wait_for(first), 75) << log();
-  EXPECT_TRUE(has(content_of(program_.folder / "queued"), "requeue 7"));
+  EXPECT_EQ(queued(), "requeue 5_0\n");
   EXPECT_TRUE(fs::exists(runs_ / "mu=0.1" / "checkpoint"));
   EXPECT_FALSE(fs::exists(runs_ / "mu=0.1/failed.json"));
-  // An older status does not speak for a launcher that fails.
-  const std::string whole = content_of(launcher);
-  executable("launcher", "#!/bin/sh\nexit 1\n");
-  EXPECT_EQ(element(0), 1) << log();
-  executable("launcher", whole);
   EXPECT_EQ(element(0), 0) << log();
   EXPECT_EQ(element(1), 0) << log();
   const auto written = fs::last_write_time(runs_ / "mu=0.1/summary.json");
@@ -286,7 +296,58 @@ TEST_F(Sweep, JobArrayQueuesARunAgainThatObeysAtOnce) {
   ASSERT_TRUE(samples::wait_until([&] { return fs::exists(program_.folder / "ready"); })) << log();
   ::kill(element, SIGTERM);
   EXPECT_EQ(samples::wait_for(element), 75) << log();
-  EXPECT_TRUE(has(content_of(program_.folder / "queued"), "requeue 7"));
+  EXPECT_EQ(queued(), "requeue 5_0\n");
+}
+
+/// As mpirun, the launcher ends a run that it was to signal, and has a code of its own for one that stopped.
+TEST_F(Sweep, JobArrayStopsARunBehindItsLauncher) {
+  const fs::path launcher = executable("launcher",
+                                       "#!/bin/bash\n\"$@\" &\ntrap 'kill -KILL $!' TERM\n"
+                                       "wait $!; code=$?\n[[ $code != 75 ]] || exit 1\nexit $code\n");
+  const fs::path script = program_.folder / "array.sh";
+  ASSERT_EQ(
+      sweep(endless_tyre(), fmt::format("-t 1 --launcher {} --slurm {}", launcher.string(), script.string())),
+      0)
+      << errors();
+  write_scontrol();
+  const pid_t element = start_rolling(script, "mu=0.1");
+  ::kill(element, SIGTERM);
+  EXPECT_EQ(samples::wait_for(element), 75) << log();
+  EXPECT_EQ(text_in(read_json(runs_ / "mu=0.1/status.json"), "stage"), "stopped") << log();
+  EXPECT_EQ(queued(), "requeue 5_0\n") << log();
+  EXPECT_FALSE(fs::exists(runs_ / "mu=0.1/failed.json"));
+  // An older status does not speak for a launcher that fails.
+  executable("launcher", "#!/bin/sh\nexit 1\n");
+  EXPECT_EQ(samples::wait_for(start_element(script, 0)), 1) << log();
+  EXPECT_EQ(queued(), "requeue 5_0\n") << log();
+}
+
+/// A limit of the study's queues an element again, a user's stop does not, even if Slurm stops it, too.
+TEST_F(Sweep, JobArrayLeavesWhatAUserHasStopped) {
+  const fs::path file = endless_tyre();
+  const fs::path script = program_.folder / "array.sh";
+  const fs::path point = runs_ / "mu=0.1";
+  const auto write_array = [&](const std::string& more) {
+    ASSERT_EQ(sweep(file, fmt::format("-t 1 {} --slurm {}", more, script.string())), 0) << errors();
+  };
+  write_array("");
+  write_scontrol();
+  const auto expect_left = [&](pid_t element) {
+    EXPECT_EQ(samples::wait_for(element), 75) << log();
+    EXPECT_TRUE(has(log(), "job 5_0: stopped by tread ctl, not queued again")) << log();
+    EXPECT_EQ(queued(), "") << log();
+    EXPECT_FALSE(fs::exists(point / "failed.json"));
+  };
+  const pid_t stopped = start_rolling(script, "mu=0.1");
+  EXPECT_EQ(program_.call(fmt::format("ctl {} stop", point.string())), 0) << errors();
+  expect_left(stopped);
+  const pid_t signalled = start_rolling(script, "mu=0.1");
+  leave_request(point, RunRequest::stop);
+  ::kill(signalled, SIGTERM);
+  expect_left(signalled);
+  write_array("--set 'stop.wall_time=1 ms'");
+  EXPECT_EQ(samples::wait_for(start_element(script, 0)), 75) << log();
+  EXPECT_EQ(queued(), "requeue 5_0\n") << log();
 }
 
 /// The collecting command must not take up on the login node what has failed in the array.
@@ -305,7 +366,7 @@ TEST_F(Sweep, JobArrayNotesFailures) {
   EXPECT_TRUE(has(content_of(script), "mv \"$folder/failed.json.part\" \"$folder/failed.json\"\n"));
   EXPECT_EQ(sweep(file), 4) << errors();
   EXPECT_FALSE(has(errors(), "[ends]")) << errors();
-  EXPECT_TRUE(has(errors(), "ends: exit 4: see the output of job 7, element 0")) << errors();
+  EXPECT_TRUE(has(errors(), "ends: exit 4: see the output of job 5_0, slurm-5_0.out")) << errors();
   EXPECT_EQ(number_in(status(), "done"), 1);
   // Another array goes on without the limit.
   std::string free = content_of(file);
@@ -372,6 +433,19 @@ TEST_F(Sweep, LimitsAreThoseOfTheStudyWhenAPointGoesOn) {
   EXPECT_EQ(sweep(limited("stop.steps = 3\nstop.wall_time = \"1 h\"\noutput.disk_limit = \"1 GB\"\n")), 4)
       << errors();
   EXPECT_EQ(sweep(limited(""), "--retry"), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[a] goes on")) << errors();
+}
+
+/// A failure is no more than that of an earlier process once a user has taken the run up.
+TEST_F(Sweep, APointThatAUserHasTakenUpGoesOn) {
+  const auto limited = [&](const std::string& limit) {
+    return bars("[[point]]\nname = \"a\"\npulse.velocity = \"1 m/s\"\n" + limit);
+  };
+  EXPECT_EQ(sweep(limited("stop.steps = 3\n")), 4) << errors();
+  EXPECT_EQ(program_.call(fmt::format("resume {} --set stop.steps=5", (runs_ / "a").string())), 4)
+      << errors();
+  EXPECT_FALSE(fs::exists(runs_ / "a/failed.json"));
+  EXPECT_EQ(sweep(limited("")), 0) << errors();
   EXPECT_TRUE(has(errors(), "[a] goes on")) << errors();
 }
 
@@ -557,12 +631,14 @@ TEST(StudyTable, HasTheNumbersThatTheStudyStates) {
   const samples::Program program;
   const fs::path file =
       program.write("study.toml", fmt::format("[study]\nscene = \"{}/scenes/tyre.toml\"\n[grid]\n"
-                                              "motion.speed = [\"300 km/h\"]\n",
+                                              "motion.speed = [\"300 km/h\", \"300.0001 km/h\"]\n",
                                               TREAD_SOURCE_DIR));
   const StudyPlan plan = plan_study(read_study(file), program.folder / "runs");
   const JsonRecord table = parse_json(sweep_json(plan, {}), "sweep");
   EXPECT_EQ(number_in(table, "points.0.varied.motion.speed.value"), 300);
   EXPECT_EQ(text_in(table, "points.0.varied.motion.speed.unit"), "km/h");
+  EXPECT_EQ(number_in(table, "points.1.varied.motion.speed.value"), 300.0001);
+  EXPECT_TRUE(has(sweep_csv(plan, {}), ",waiting,300.0001,")) << sweep_csv(plan, {});
 }
 
 /// A study that goes on has part of its files already.

@@ -11,6 +11,7 @@
 #include "drivers/studies/develop/development_folder.hpp"
 #include "drivers/studies/develop/development_report.hpp"
 #include "drivers/studies/develop/passage_room.hpp"
+#include "drivers/studies/study/run_study.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
@@ -26,6 +27,7 @@ void leave(const DevelopmentFolder& folder, const Development& development, cons
   write_text_file(place / "spectra.csv", spectra_csv(development));
   write_text_file(place / "growth.csv", growth_csv(development));
   write_text_file(place / "development.json", development_json(development));
+  remove_figures(place / kFigureFolder);
   write_report(place / "report.html", development_report(development, resolved, origin));
 }
 
@@ -44,6 +46,8 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
   require_folder_of(options.output, "develop");
+  const std::vector<std::string> launcher = launcher_words(options.launcher);
+  if (const std::string missing = missing_launcher(launcher); !missing.empty()) throw InputError(missing);
   Progress progress(options.quiet);
   std::optional<double> room;
   if (!std::filesystem::exists(options.output / kKeptScene)) {
@@ -54,9 +58,9 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   }
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
-  const DevelopmentFolder folder(
-      options.output, resolved,
-      {options.from, options.threads, options.device, options.passages, room, options.origin.command});
+  const DevelopmentFolder folder(options.output, resolved,
+                                 {options.from, options.threads, options.device, launcher, options.passages,
+                                  room, options.origin.command});
   interruption.defer();
   development.begin(folder.pass(0, nullptr, progress), *resolved.scene.corrugation);
   for (int number = 1; number <= options.passages; ++number) {

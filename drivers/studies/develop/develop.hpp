@@ -15,6 +15,7 @@ struct DevelopOptions {
   std::string from;              ///< a run whose state all passages begin with, as in fork_from(); or empty
   int threads = 0;               ///< of a passage; 0: all
   std::string device;            ///< takes the steps of all passages; empty: the processor
+  std::string launcher;          ///< words that start a passage elsewhere, "srun -N1"; empty: here
   bool json = false;             ///< instead of a table
   bool quiet = false;
   Provenance origin;

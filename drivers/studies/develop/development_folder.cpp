@@ -239,6 +239,7 @@ void DevelopmentFolder::roll(int number, const Development* before, Progress& pr
   plan.study.scene = folder_ / (number == 0 ? kSmoothScene : kPassageScene);
   plan.threads = options_.threads;
   plan.device = options_.device;
+  plan.launcher = options_.launcher;
   PlannedPoint point;
   point.name = run_path(number).filename().string();
   point.overrides = overrides(number, before);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/process/progress.hpp"
 #include "drivers/run/run_folder.hpp"
@@ -20,9 +21,10 @@ class DevelopmentFolder {
     std::string from;    ///< run with whose state all passages begin, as in fork_from(); empty: passage 0
     int threads = 0;     ///< threads of a passage; 0: all
     std::string device;  ///< takes the steps; empty: the processor
-    int passages = 0;    ///< passages of the whole development, for progress lines
-    std::optional<double> room;  ///< room_of_passage0(), where it is known
-    std::string command;         ///< command as typed, for status.json
+    std::vector<std::string> launcher;  ///< StudyPlan::launcher
+    int passages = 0;                   ///< passages of the whole development, for progress lines
+    std::optional<double> room;         ///< room_of_passage0(), where it is known
+    std::string command;                ///< command as typed, for status.json
   };
 
   /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds

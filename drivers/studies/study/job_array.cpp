@@ -23,7 +23,8 @@ constexpr const char* kScript = R"(#!/bin/bash
 #SBATCH --requeue
 cd {folder} || exit 4
 tread=({start} )
-case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
+job=${{SLURM_ARRAY_JOB_ID:?it is an element of a job array}}_$SLURM_ARRAY_TASK_ID
+case $SLURM_ARRAY_TASK_ID in
 {elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
 esac
 if ((anew)) && grep -qs '"exit": [23],' "$folder/failed.json"; then
@@ -34,24 +35,58 @@ elif [[ -e $folder/summary.json ]]; then
   words=(resume "$folder" "${{place[@]}}") # says that the run is finished
 fi
 rm -f "$folder/failed.json"
-before=$(cat "$folder/status.json" 2>/dev/null)
+show() {{ cat "$folder/status.json" 2>/dev/null; }}
+before=$(show) asked=0 own=0
+# A request to stop that still lies in the folder of the run is a user's.
+note_request() {{
+  [[ $(show) == "$before" || $(cat "$folder/request" 2>/dev/null) != stop ]] || asked=1
+}}
+# A launcher may end a run that it signals before its checkpoint is written: a run that owns its folder reads
+# a request there. Another signal, 2 s later or more, ends it at once.
+pass_on() {{
+  trap '' TERM # bash loses a signal, with an error, while it reads a substitution
+  if ((own)); then
+    ((SECONDS - since < 2)) || kill -TERM $run
+  else
+    note_request
+    if ((${{#tread[@]}} == 1)) || [[ $(show) == "$before" ]]; then
+      kill -TERM $run
+    else
+      since=$SECONDS own=1
+      {{ "${{tread[-1]}}" ctl "$folder" stop --wait 1e6 >/dev/null || kill -TERM $run; }} 2>/dev/null &
+    fi
+  fi
+  trap pass_on TERM
+}}
 "${{tread[@]}}" "${{words[@]}}" &
 run=$!
-trap 'kill -TERM $run' TERM
+trap pass_on TERM
 while wait $run; code=$?; kill -0 $run 2>/dev/null; do :; done
 # A signal ends that wait: bash keeps the code of a run that ends before its life is asked for.
 wait $run 2>/dev/null; last=$?; ((last == 127)) || code=$last
+trap '' TERM
+((own)) || note_request
+after=$(show)
 # A launcher may have a code of its own for a run that was stopped.
-after=$(cat "$folder/status.json" 2>/dev/null)
-if ((code)) && [[ $after != "$before" && $after == *'"stage": "stopped"'* ]]; then code=75; fi
+if ((code)) && [[ $after != "$before" && $after == *'"stage": "stopped"'* ]]; then
+  code=75
+  # By a request, and not by that of this script.
+  if ((!own)) && [[ $after == *@(' by tread ctl; '|'"stopped before the first step; ')* ]]; then asked=1; fi
+fi
 case $code in
 0 | 124 | 129 | 130 | 143) ;; # done, or a stop of Slurm's
-75) scontrol requeue "$SLURM_JOB_ID" ;;
+75)
+  if ((asked)); then
+    echo "job $job: stopped by tread ctl, not queued again"
+  else
+    scontrol requeue "$job"
+  fi
+  ;;
 *)
   signal=0 exit=$code anew=false why="exit $code"
   if ((code > 128)); then signal=$((code - 128)) exit=0 why="signal $((code - 128)) ended it"; fi
   if ((code == 2 || code == 3)); then anew=true; fi
-  why+=": see the output of job $SLURM_JOB_ID, element $SLURM_ARRAY_TASK_ID"
+  why+=": see the output of job $job, slurm-$job.out unless sbatch states another file"
   mkdir -p "$folder"
   printf '{{\n  "exit": %d,\n  "signal": %d,\n  "why": "%s",\n  "anew": %s\n}}\n' \
     $exit $signal "$why" $anew >"$folder/failed.json.part" &&

@@ -47,11 +47,6 @@ bool program_exists(const std::string& name) {
   return false;
 }
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
-}
-
 /// Cards that runs with this device share; 0: they need none.
 int cards_of(const std::string& device) {
   if (device.starts_with("gpu:")) return 1;
@@ -66,7 +61,7 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
   plan.device = options.device;
-  plan.launcher = words_of(options.launcher);
+  plan.launcher = launcher_words(options.launcher);
   plan.elsewhere = options.slurm.empty() ? fmt::format("{}", fmt::join(plan.launcher, " ")) : "Slurm";
   int jobs = stated(options.jobs, plan.study.jobs);
   if (!plan.elsewhere.empty()) {
@@ -84,11 +79,7 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
 /// which need none.
 std::string lacking_here(const StudyPlan& plan, const StudyOptions& options) {
   if (options.list || !options.slurm.empty()) return "";
-  if (!plan.launcher.empty())
-    return program_exists(plan.launcher.front())
-               ? ""
-               : fmt::format("--launcher: there is no program '{}' in PATH; install it, or state its path",
-                             plan.launcher.front());
+  if (!plan.launcher.empty()) return missing_launcher(plan.launcher);
   if (plan.cards > 0 && options.jobs > plan.cards)
     return fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
                        options.jobs, plan.device,
@@ -227,6 +218,17 @@ std::string command_word(const std::string& line) {
 }
 
 }  // namespace
+
+std::vector<std::string> launcher_words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+std::string missing_launcher(const std::vector<std::string>& launcher) {
+  if (launcher.empty() || program_exists(launcher.front())) return "";
+  return fmt::format("--launcher: there is no program '{}' in PATH; install it, or state its path",
+                     launcher.front());
+}
 
 void add_overrides(Study& study, const StudyOptions& options) {
   if (options.no_share || !options.slurm.empty()) study.share = false;

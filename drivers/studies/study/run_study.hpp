@@ -29,6 +29,12 @@ struct StudyOptions {
   Provenance origin;
 };
 
+/// Words of --launcher: a program and its arguments.
+std::vector<std::string> launcher_words(const std::string& text);
+
+/// Sentence on a launcher whose program this machine lacks; "" without one.
+std::string missing_launcher(const std::vector<std::string>& launcher);
+
 /// Adds the options' overrides and `no_share` to the study. Throws InputError if a point varies an overridden
 /// key.
 void add_overrides(Study& study, const StudyOptions& options);

@@ -182,8 +182,8 @@ void StudyRunner::begin(PlannedPoint& point, int threads) {
   std::string before = shown_status(point.folder);
   const std::int64_t log_before = log_bytes(point.folder);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
-  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads, card,
-                      progress_->seconds(), std::move(before), log_before});
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher, plan_->jobs > 1),
+                      threads, card, progress_->seconds(), std::move(before), log_before});
   point.status = {PointState::running, ""};
 }
 
@@ -277,10 +277,11 @@ void StudyRunner::stop(const std::string& why) {
                              running_.size()));
   for (const Running& running : running_) {
     if (running.end) continue;
-    // Until the run takes its folder, nothing but the signal reaches it behind its launcher.
-    if (plan_->launcher.empty() || owns_folder(running))
+    // Until the run takes its folder, nothing but the signal reaches it behind its launcher. A launcher may
+    // end a run that it signals before the checkpoint is written.
+    if (plan_->launcher.empty())
       running.process.send(SIGTERM);
-    else
+    else if (!owns_folder(running))
       running.process.send_to_group(SIGTERM);
   }
   pass_on_stop();
@@ -297,16 +298,18 @@ void StudyRunner::pass_on_stop() {
   for (Running& running : running_) {
     if (running.asked || !owns_folder(running)) continue;
     running.asked = true;
-    leave(running, RunRequest::stop);
+    if (!leave(running, RunRequest::stop)) running.process.send_to_group(SIGTERM);
   }
 }
 
-/// A full disk must not end the study before its runs.
-void StudyRunner::leave(const Running& running, RunRequest request) const {
+/// Returns whether the request reaches the run. A full disk must not end the study before its runs.
+bool StudyRunner::leave(const Running& running, RunRequest request) const {
   try {
     leave_request(running.point->folder, request);
+    return true;
   } catch (const ResourceError& error) {
     progress_->say(fmt::format("[{}] no request reaches it: {}", running.point->name, error.what()));
+    return false;
   }
 }
 

@@ -25,7 +25,8 @@ struct StudyLabel {
 /// Runs the points: a point begins with `tread run`, with another one's state if rolling is shared, and goes
 /// on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys `tread
 /// ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each; where a
-/// launcher starts them, also to their folders, since it may keep signals to itself.
+/// launcher starts them, to their folders once they own these, since it may keep signals to itself or end the
+/// run by them.
 class StudyRunner {
  public:
   StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress, StudyLabel label);
@@ -61,7 +62,7 @@ class StudyRunner {
   void obey();
   void stop(const std::string& why);
   void pass_on_stop();
-  void leave(const Running& running, RunRequest request) const;
+  bool leave(const Running& running, RunRequest request) const;
   void show();
   double seconds_left() const;
 
