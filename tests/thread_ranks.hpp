@@ -100,14 +100,14 @@ class ThreadRanks final : public Ranks {
     }
   }
 
-  void broadcast(std::span<std::byte> bytes) override {
+ private:
+  void broadcast_bytes(std::span<std::byte> bytes) override {
     meeting_->values[static_cast<std::size_t>(rank_)] = bytes.data();
     meeting_->barrier.arrive_and_wait();
     if (rank_ != 0) std::memcpy(bytes.data(), meeting_->values[0], bytes.size());
     meeting_->barrier.arrive_and_wait();
   }
 
- private:
   void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
     meeting_->values[static_cast<std::size_t>(rank_)] = values;
     meeting_->barrier.arrive_and_wait();

@@ -1,5 +1,5 @@
 #pragma once
-// Mean, extremes, scatter and trend of values.
+// Mean, extremes, scatter, median and trend of values.
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +51,12 @@ Statistics statistics(const Items& items, const Counts& counts, const Value& val
 inline Statistics statistics(const std::vector<double>& values) {
   return statistics(
       values, [](double) { return true; }, [](double value) { return value; });
+}
+
+/// Middle value, of an even number the mean of the middle two. At least one value.
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
 /// Correlation coefficient of two curves at equal places; nullopt if one of them is constant or empty.

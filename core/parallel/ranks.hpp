@@ -4,6 +4,7 @@
 // All ranks make the same calls in the same order, post() and receive() aside; each call returns once its
 // data are there.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,8 +16,8 @@ namespace tread {
 /// Calls that a rank has made.
 struct RankTraffic {
   std::int64_t waits = 0;     ///< number of calls
-  std::int64_t sent = 0;      ///< [B]
-  std::int64_t received = 0;  ///< [B]
+  std::int64_t sent = 0;      ///< but for broadcasts [B]
+  std::int64_t received = 0;  ///< but for broadcasts [B]
   double seconds = 0;         ///< time in the calls [s]
   double beside = 0;          ///< of it, in receive(), while the rank's other threads go on [s]
 
@@ -69,7 +70,7 @@ class Ranks {
   /// Waits for what other ranks post.
   virtual void receive(std::span<const RankSegment> received) = 0;
   /// Gives all ranks the bytes of rank 0. A rank that has to wait long for them leaves its core to others.
-  virtual void broadcast(std::span<std::byte> bytes) = 0;
+  void broadcast(std::span<std::byte> bytes);
 
   /// Ends the processes of all ranks; the launcher returns `code`.
   [[noreturn]] virtual void end_all(int code) = 0;
@@ -83,7 +84,12 @@ class Ranks {
   /// Shares that the last fields got, in whole tiles; empty where other shares would not change them.
   std::vector<double> dealt;
 
+ protected:
+  /// Counts a call that began then. Returns its time [s].
+  double note_wait(std::chrono::steady_clock::time_point started);
+
  private:
+  virtual void broadcast_bytes(std::span<std::byte> bytes) = 0;
   /// `size`: 1, 4 or 8 bytes.
   virtual void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) = 0;
 };

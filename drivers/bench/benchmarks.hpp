@@ -36,7 +36,8 @@ struct BenchScalingOptions : BenchOptions {
 };
 
 /// Measures one to all threads with every backend. The work is whole steps of a scene, or internal force and
-/// update of a made-up rail. The rail has one size, or a size that grows with the threads.
+/// update of a made-up rail. The rail has one size, or a size that grows with the threads. Each row has new
+/// fields, touched first by its threads; mesh and masses of a scene are made once.
 void bench_scaling(const BenchScalingOptions& options);
 void bench_scaling(const ResolvedScene& scene, const BenchScalingOptions& options);
 
@@ -51,9 +52,8 @@ struct BenchHotspotsOptions : BenchOptions {
 void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& options);
 
 struct BenchRanksOptions : BenchOptions {
-  int ranks = 64;  ///< that the scene is cut for
-  std::vector<int>
-      parts;  ///< numbers of ranks whose part is timed alone; the others' times follow from the first
+  int ranks = 64;          ///< that the scene is cut for
+  std::vector<int> parts;  ///< numbers of ranks whose part is timed alone; their mean predicts all times
 };
 
 /// Cuts a scene for ranks that are not there: elements, nodes, memory and messages of each in a step; and

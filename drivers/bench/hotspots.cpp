@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/math/statistics.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/hardware_counters.hpp"
@@ -79,11 +80,6 @@ class DeviceSteps {
   }
 
  private:
-  static double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  }
   static double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
@@ -201,7 +197,7 @@ Measurement of_whole_steps(const std::vector<std::vector<Hotspot>>& runs) {
   std::vector<double> seconds;
   seconds.reserve(runs.size());
   for (const std::vector<Hotspot>& spots : runs) seconds.push_back(spots.back().seconds);
-  return summarise(std::move(seconds));
+  return summarise(seconds);
 }
 
 std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& measured, std::int64_t elements,
@@ -251,9 +247,11 @@ class Projection {
   std::string text(double elements) const {
     return fmt::format(
         "Projected from these phases: serial time, work over the cores or the longest items, and waits of "
-        "{:.1f} "
-        "us a call, times the binary logarithm of the cores, and {:.1f} % of the work\n{}",
-        1e6 * waits_.call, 100 * waits_.share, plain_text(projection_table(steps_, elements)));
+        "{:.1f} us a call, times the binary logarithm of the cores, and {:.1f} % of the work\n"
+        "Work is the core-time of bodies on {} thread{}. More threads slow one another's bodies, which the "
+        "model leaves out: efficiencies are upper estimates\n{}",
+        1e6 * waits_.call, 100 * waits_.share, threads(), threads() == 1 ? "" : "s",
+        plain_text(projection_table(steps_, elements)));
   }
   std::string json_lines() const {
     std::string lines;

@@ -4,12 +4,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/math/statistics.hpp"
+
 namespace tread {
 
-namespace {
-
-/// Time of `calls` calls [s]. Without a reset between the calls the clock is read only twice.
-double run(const TimedCall& timed, int calls) {
+double time_calls(const TimedCall& timed, int calls) {
   using Clock = std::chrono::steady_clock;
   Clock::duration spent{};
   if (!timed.reset) {
@@ -27,27 +26,28 @@ double run(const TimedCall& timed, int calls) {
   return std::chrono::duration<double>(spent).count();
 }
 
-}  // namespace
-
-Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
-  // Warms up and finds the number of calls that a run needs.
+int warm_up(const TimedCall& timed, const MeasurementPlan& plan) {
   int calls = 1;
-  for (double seconds = run(timed, 1); seconds < plan.run_seconds;) {
+  for (double seconds = time_calls(timed, 1); seconds < plan.run_seconds;) {
     const double wanted = 1.2 * plan.run_seconds / std::max(seconds / calls, 1e-9);
     calls = static_cast<int>(std::ceil(std::clamp(wanted, calls + 1.0, 10.0 * calls)));
-    seconds = run(timed, calls);
+    seconds = time_calls(timed, calls);
   }
-  std::vector<double> seconds;
-  seconds.reserve(static_cast<std::size_t>(plan.repetitions));
-  for (int i = 0; i < plan.repetitions; ++i) seconds.push_back(run(timed, calls) / calls);
-  return summarise(std::move(seconds));
+  return calls;
 }
 
-Measurement summarise(std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const std::size_t n = seconds.size();
-  const double median = 0.5 * (seconds[(n - 1) / 2] + seconds[n / 2]);
-  return {median, seconds.front(), (seconds.back() - seconds.front()) / median, static_cast<int>(n)};
+Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
+  const int calls = warm_up(timed, plan);
+  std::vector<double> seconds;
+  seconds.reserve(static_cast<std::size_t>(plan.repetitions));
+  for (int i = 0; i < plan.repetitions; ++i) seconds.push_back(time_calls(timed, calls) / calls);
+  return summarise(seconds);
+}
+
+Measurement summarise(const std::vector<double>& seconds) {
+  const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());
+  const double middle = median(seconds);
+  return {middle, *fastest, (*slowest - *fastest) / middle, static_cast<int>(seconds.size())};
 }
 
 }  // namespace tread

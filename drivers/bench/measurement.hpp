@@ -26,7 +26,13 @@ struct TimedCall {
 
 Measurement measure(const TimedCall& timed, const MeasurementPlan& plan);
 
+/// Warms up. Returns the number of calls that a run of the plan's duration needs.
+int warm_up(const TimedCall& timed, const MeasurementPlan& plan);
+
+/// Time of so many calls without their resets [s]. Without a reset the clock is read only twice.
+double time_calls(const TimedCall& timed, int calls);
+
 /// Median and spread of the seconds of single runs.
-Measurement summarise(std::vector<double> seconds);
+Measurement summarise(const std::vector<double>& seconds);
 
 }  // namespace tread

@@ -35,13 +35,15 @@ WaitModel fit_waits(const std::vector<PhaseWork>& phases, int threads);
 struct ProjectedStep {
   int cores = 0;
   double seconds = 0;
-  double efficiency = 0;                       ///< work over core-time [-]
+  double efficiency = 0;                       ///< work over core-time, an upper estimate [-]
   double serial = 0, uneven = 0, waiting = 0;  ///< shares of the core-time that are lost [-]
   double bandwidth = 0;                        ///< of the memory, to move the counted bytes [B/s]
   std::string limit;                           ///< phase and cause of the largest loss
 };
 
 /// Each phase takes its serial time, the longer of its work over the cores and its longest items, and waits.
+/// Work is the busy time on the threads that were measured: more threads slow one another's bodies, which is
+/// not in the model.
 ProjectedStep project(const std::vector<PhaseWork>& phases, const WaitModel& waits, int cores);
 
 Table projection_table(const std::vector<ProjectedStep>& steps, double elements);

@@ -33,10 +33,10 @@ class LoneRank final : public Ranks {
   void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
   void post(std::span<const RankSegment> /*sent*/) override {}
   void receive(std::span<const RankSegment> /*received*/) override {}
-  void broadcast(std::span<std::byte> /*bytes*/) override {}
   [[noreturn]] void end_all(int code) override { std::exit(code); }
 
  private:
+  void broadcast_bytes(std::span<std::byte> /*bytes*/) override {}
   void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
   int rank_, count_;
 };
@@ -79,10 +79,9 @@ StepLoads loads_of(const Model& model) {
 struct RankRow {
   int rank;
   RankPart part;
-  std::int64_t memory;          ///< of displacement, velocity and force [B]
-  std::int64_t sent, received;  ///< in a step [B]
-  std::optional<Measurement> step;
-  double predicted;  ///< from the first step that was timed, with contact [s]; 0 without
+  std::int64_t memory;              ///< of displacement, velocity and force [B]
+  std::int64_t sent, received;      ///< in a step [B]
+  std::optional<Measurement> step;  ///< timed, without contact
 };
 
 class RankRows {
@@ -94,22 +93,41 @@ class RankRows {
       rows_.push_back({static_cast<int>(rows_.size()), part,
                        (part.own + part.halo) * kGroupValues * (bytes.displacement + 2 * bytes.other),
                        part.sent * bytes.other + part.sent_motion * moved,
-                       part.received * bytes.other + part.received_motion * moved, std::nullopt, 0});
+                       part.received * bytes.other + part.received_motion * moved, std::nullopt});
   }
 
-  void time(int rank, const Measurement& step) {
-    RankRow& timed = rows_[index(rank)];
-    timed.step = step;
-    if (predicted_ || timed.part.cost == 0) return;
-    predicted_ = true;
-    const double unit = step.seconds / static_cast<double>(timed.part.cost);
-    for (RankRow& row : rows_) row.predicted = unit * static_cast<double>(row.part.cost + row.part.contact);
-  }
+  void time(int rank, const Measurement& step) { rows_[index(rank)].step = step; }
 
   void print(bool json) const { fmt::print("{}", json ? lines() : plain_text(table())); }
 
  private:
+  /// Time of a unit of cost, in the mean of the timed parts [s]. Rank 0's is left out unless it is the only
+  /// one, because it packs for all others. 0: there is none.
+  double mean_unit() const {
+    double sum = 0;
+    int parts = 0;
+    for (const bool first : {false, true})
+      for (const RankRow& row : rows_) {
+        if (!row.step || row.part.cost == 0 || (row.rank == kContactRank) != first || (first && parts > 0))
+          continue;
+        sum += row.step->seconds / static_cast<double>(row.part.cost);
+        ++parts;
+      }
+    return parts > 0 ? sum / parts : 0;
+  }
+  /// Timed step over the predicted one without contact, less one; nothing where either is missing.
+  static std::optional<double> deviation(const RankRow& row, double unit) {
+    const double alone = unit * static_cast<double>(row.part.cost);
+    if (!row.step || alone == 0) return std::nullopt;
+    return row.step->seconds / alone - 1;
+  }
+  /// Time of a step with contact [s].
+  static double predicted(const RankRow& row, double unit) {
+    return unit * static_cast<double>(row.part.cost + row.part.contact);
+  }
+
   Table table() const {
+    const double unit = mean_unit();
     Table table{"",
                 {{"Rank", Align::right},
                  {"Elements", Align::right},
@@ -120,20 +138,25 @@ class RankRows {
                  {"Received", Align::right},
                  {"Step, predicted, us", Align::right},
                  {"Timed, us", Align::right},
-                 {"Spread", Align::right}},
+                 {"Spread", Align::right},
+                 {"Deviation", Align::right}},
                 {}};
-    for (const RankRow& row : rows_)
+    for (const RankRow& row : rows_) {
+      const std::optional<double> off = deviation(row, unit);
       table.rows.push_back(
           {std::to_string(row.rank), grouped(row.part.elements), grouped(row.part.halo * kLanes),
            bytes_text(row.memory), std::to_string(row.part.neighbours), bytes_text(row.sent),
-           bytes_text(row.received), row.predicted > 0 ? fmt::format("{:.1f}", 1e6 * row.predicted) : "",
+           bytes_text(row.received), unit > 0 ? fmt::format("{:.1f}", 1e6 * predicted(row, unit)) : "",
            row.step ? fmt::format("{:.1f}", 1e6 * row.step->seconds) : "",
-           row.step ? fmt::format("{:.0f} %", 100 * row.step->spread) : ""});
+           row.step ? fmt::format("{:.0f} %", 100 * row.step->spread) : "",
+           off ? fmt::format("{:+.0f} %", 100 * *off) : ""});
+    }
     return table;
   }
 
   std::string lines() const {
     std::string text;
+    const double unit = mean_unit();
     for (const RankRow& row : rows_) {
       Json json = {{"rank", row.rank},
                    {"elements", row.part.elements},
@@ -144,18 +167,18 @@ class RankRows {
                    {"ranks_beside", row.part.neighbours},
                    {"sent_B", row.sent},
                    {"received_B", row.received}};
-      if (row.predicted > 0) json["predicted_seconds_per_step"] = row.predicted;
+      if (unit > 0) json["predicted_seconds_per_step"] = predicted(row, unit);
       if (row.step) {
         json["seconds_per_step"] = row.step->seconds;
         json["spread"] = row.step->spread;
       }
+      if (const auto off = deviation(row, unit)) json["deviation"] = *off;
       text += json_line(json);
     }
     return text;
   }
 
   std::vector<RankRow> rows_;
-  bool predicted_ = false;
 };
 
 /// Throws InputError for more ranks than pieces of work: a piece is a tile, or tiles that the loop takes

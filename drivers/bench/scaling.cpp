@@ -1,13 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
+#include "core/page_vector.hpp"
+#include "core/parallel/chunks.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/limits.hpp"
@@ -27,36 +28,44 @@ namespace {
 /// Approximate bytes of an element: three vectors and the inverse mass of a node [B].
 constexpr double kBytes = 10 * sizeof(double);
 
-/// Parts of a step's time, means of all steps [s].
+/// Parts of a step's time in the run of median time, in the mean of both middle ones of an even number [s].
 struct StepTimes {
-  Measurement measured;
-  double wall = 0;      ///< wall clock
-  double parallel = 0;  ///< wall clock within parallel calls
-  double busy = 0;      ///< core-time of all threads within bodies
+  Measurement measured;  ///< wall clock
+  double parallel = 0;   ///< wall clock within parallel calls
+  double busy = 0;       ///< core-time of all threads within bodies
 };
 
-StepTimes time_steps(const TimedCall& step, const MeasurementPlan& plan) {
+/// Means of the steps of a run [s].
+struct RunTimes {
+  double wall, parallel, busy;
+};
+
+RunTimes time_run(const TimedCall& step, int calls) {
   ParallelTimes times;
-  StepTimes result;
-  std::int64_t calls = 0;
-  measure_parallel(&times);
-  const auto timed_step = [&] {
-    const auto start = std::chrono::steady_clock::now();
-    step.call();
-    result.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    ++calls;
-  };
   const auto reset = [&] {
     measure_parallel(nullptr);
     step.reset();
     measure_parallel(&times);
   };
-  result.measured = measure({timed_step, step.reset ? reset : std::function<void()>()}, plan);
+  measure_parallel(&times);
+  const double wall = time_calls({step.call, step.reset ? reset : std::function<void()>()}, calls);
   measure_parallel(nullptr);
-  result.wall /= static_cast<double>(calls);
-  result.parallel = times.wall / static_cast<double>(calls);
-  result.busy = times.busy() / static_cast<double>(calls);
-  return result;
+  return {wall / calls, times.wall / calls, times.busy() / calls};
+}
+
+/// Steps of the warm-up do not count.
+StepTimes time_steps(const TimedCall& step, const MeasurementPlan& plan) {
+  const int calls = warm_up(step, plan);
+  std::vector<RunTimes> runs;
+  std::vector<double> walls;
+  for (int i = 0; i < plan.repetitions; ++i) {
+    runs.push_back(time_run(step, calls));
+    walls.push_back(runs.back().wall);
+  }
+  std::ranges::sort(runs, {}, &RunTimes::wall);
+  const RunTimes& low = runs[(runs.size() - 1) / 2];
+  const RunTimes& high = runs[runs.size() / 2];
+  return {summarise(walls), 0.5 * (low.parallel + high.parallel), 0.5 * (low.busy + high.busy)};
 }
 
 struct ScalingRow {
@@ -70,11 +79,12 @@ struct ScalingRow {
 
   /// Work relative to the first row [-].
   double growth() const { return kind[0] == 'w' ? threads : 1; }
-  double core_time() const { return threads * step.wall; }
-  double efficiency() const { return growth() * one.wall / core_time(); }
+  double core_time() const { return threads * step.measured.seconds; }
+  double efficiency() const { return growth() * one.measured.seconds / core_time(); }
   /// Fraction of the core-time lost outside parallel calls [-].
   double lost_serial() const {
-    return (threads * (step.wall - step.parallel) - growth() * (one.wall - one.parallel)) / core_time();
+    const double serial = step.measured.seconds - step.parallel;
+    return (threads * serial - growth() * (one.measured.seconds - one.parallel)) / core_time();
   }
   /// Fraction of the core-time lost in parallel calls by waiting for work or for the slowest thread [-].
   double lost_waiting() const { return (threads * step.parallel - step.busy) / core_time(); }
@@ -82,22 +92,31 @@ struct ScalingRow {
   double lost_slower() const { return (step.busy - growth() * one.parallel) / core_time(); }
 };
 
-/// Makes, for a mesh of so many elements, a call that does one step with all threads.
+/// Makes, for a mesh of so many elements, a call that does one step with the threads that are set, on fields
+/// whose pages these threads touch first. The data of an earlier call may go.
 using StepMaker = std::function<TimedCall(std::int64_t elements)>;
+
+PageVector<double> copied_by_threads(const AlignedVector<double>& values) {
+  PageVector<double> copy(values.size());
+  for_chunks(std::ssize(values), [&](std::int64_t first, std::int64_t last) {
+    std::copy(values.data() + first, values.data() + last, copy.data() + first);
+  });
+  return copy;
+}
 
 TimedCall made_up_step(std::int64_t elements) {
   struct Data {
     explicit Data(std::int64_t count)
         : mesh(made_up_mesh(Sweep::extruded, false, count)),
           internal(mesh),
-          u(made_up_field<double>(mesh, 1e-5)),
-          v(u.size(), 0.0),
-          f(u.size(), 0.0),
-          inverse_mass(static_cast<std::size_t>(mesh.slots), 1e5),
+          u(copied_by_threads(made_up_field<double>(mesh, 1e-5))),
+          v(u.size()),
+          f(u.size()),
+          inverse_mass(copied_by_threads(made_up_inverse_mass<double>(mesh))),
           update(mesh, inverse_mass.data()) {}
     Mesh mesh;
     InternalForce internal;
-    AlignedVector<double> u, v, f, inverse_mass;
+    PageVector<double> u, v, f, inverse_mass;
     TimeUpdate update;
   };
   const auto data = std::make_shared<Data>(elements);
@@ -124,15 +143,13 @@ class Scaling {
     const bool grows = kind[0] == 'w';
     StepTimes one;
     double alone = 0;  ///< time of a triad on one thread [s]
-    auto step = make(elements);
     for (int count = 1; count <= most_; ++count) {
       set_threads(count);
       const std::int64_t size = grows ? count * elements : elements;
-      if (grows && count > 1) step = make(size);
       for (const std::string_view team : teams_) {
         if (count == 1 && team != teams_.front()) continue;
         set_backend(team);
-        const StepTimes times = time_steps(step, options_.plan);
+        const StepTimes times = time_steps(make(size), options_.plan);
         const double triad =
             limits_.triad(static_cast<std::int64_t>(kBytes * static_cast<double>(size))).seconds;
         if (count == 1) {
@@ -213,13 +230,16 @@ void bench_scaling(const ResolvedScene& resolved, const BenchScalingOptions& opt
   const Progress progress(options.json);
   const RollingScene scene(resolved, progress);
   const std::int64_t all = step_count(resolved.scene, scene.dt());
-  std::optional<Simulation> simulation(scene.start());
-  const auto start_anew = [&] {
-    if (simulation->steps() < all) return;
+  std::optional<Simulation> simulation;
+  const auto start = [&] {
     simulation.reset();  // one at a time
     simulation.emplace(scene.start());
   };
+  const auto start_anew = [&] {
+    if (simulation->steps() >= all) start();
+  };
   scaling.measure_kind("strong", scene.model().elements(), [&](std::int64_t) {
+    start();
     return TimedCall{[&] { simulation->step(); }, start_anew};
   });
   scaling.print();

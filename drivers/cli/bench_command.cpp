@@ -86,8 +86,8 @@ void add_bench_ranks(CLI::App& bench) {
   command.add_option("--ranks", state->options.ranks, "number of ranks (default: 64)")->check(at_least(1));
   command
       .add_option("--parts", state->options.parts,
-                  "numbers of ranks whose part of a step is timed alone, without contact; the first predicts "
-                  "the times of all")
+                  "numbers of ranks whose part of a step is timed alone, without contact; their mean, rank 0 "
+                  "aside, predicts the times of all")
       ->check(at_least(0));
   add_plan_options(command, state->options.plan);
 }

@@ -89,14 +89,6 @@ class MpiRanks final : public Ranks {
   int on_cores() const override { return on_cores_.count; }
   int place_on_cores() const override { return on_cores_.place; }
 
-  void broadcast(std::span<std::byte> bytes) override {
-    for_pieces(bytes, [](std::byte* at, int size) {
-      MPI_Request request = MPI_REQUEST_NULL;
-      MPI_Ibcast(at, size, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
-      await({&request, 1});
-    });
-  }
-
   void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) override {
     const Clock::time_point started = Clock::now();
     begin_to_receive(received, kExchanged);
@@ -140,6 +132,14 @@ class MpiRanks final : public Ranks {
     return note_wait(started);
   }
 
+  void broadcast_bytes(std::span<std::byte> bytes) override {
+    for_pieces(bytes, [](std::byte* at, int size) {
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Ibcast(at, size, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+      await({&request, 1});
+    });
+  }
+
   void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
     TREAD_EXPECT(std::ssize(first) == count_ + 1);
     if (first.back() > std::numeric_limits<int>::max())
@@ -168,13 +168,6 @@ class MpiRanks final : public Ranks {
     constexpr std::size_t kPiece = 1 << 30;
     for (; !bytes.empty(); bytes = bytes.subspan(std::min(kPiece, bytes.size())))
       visit(bytes.data(), static_cast<int>(std::min(kPiece, bytes.size())));
-  }
-
-  double note_wait(Clock::time_point started) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - started).count();
-    ++traffic.waits;
-    traffic.seconds += seconds;
-    return seconds;
   }
 
   int rank_ = 0, count_ = 1;

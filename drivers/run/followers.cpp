@@ -192,8 +192,8 @@ void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOpt
 
 void Followers::step(Simulation& simulation) {
   if (absent()) return simulation.step();
-  say(*ranks_, Word::step);
   const RankTraffic before = ranks_->traffic;
+  say(*ranks_, Word::step);
   clock_.time(*ranks_, [&] { simulation.step(); });
   traffic_ += ranks_->traffic - before;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/index.hpp"
+#include "core/math/statistics.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
 
@@ -34,7 +35,7 @@ class RankClock {
     std::vector<std::int64_t> first;
     for (std::int64_t rank = 0; rank <= ranks.count(); ++rank) first.push_back(rank);
     std::vector<double> medians(index(ranks.count()));
-    medians[index(ranks.rank())] = median();
+    medians[index(ranks.rank())] = steps_ > 0 ? median(last_steps()) : 0;
     ranks.gather(medians.data(), first);
     *this = {};
     return medians;
@@ -50,12 +51,8 @@ class RankClock {
   static double idle_seconds(const RankTraffic& traffic) {
     return traffic.seconds - traffic.beside + traffic.beside / threads();
   }
-  double median() const {
-    std::vector<double> worked(worked_.begin(), worked_.begin() + std::min(steps_, kKept));
-    if (worked.empty()) return 0;
-    const auto middle = worked.begin() + std::ssize(worked) / 2;
-    std::nth_element(worked.begin(), middle, worked.end());
-    return *middle;
+  std::vector<double> last_steps() const {
+    return {worked_.begin(), worked_.begin() + std::min(steps_, kKept)};
   }
 
   Clock::time_point started_ = Clock::now();

@@ -153,6 +153,10 @@ TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
     const double lost = number(row, "lost_serial") + number(row, "lost_waiting") + number(row, "lost_slower");
     EXPECT_NEAR(number(row, "efficiency") + lost, 1, 1e-9);
     EXPECT_GT(number(row, "triad_ratio"), 0);
+    const bool weak = text(row, "kind") == "weak";
+    const double alone = number(rows[weak ? 3 : 0], "seconds_per_step");
+    const double ideal = alone / (weak ? 1 : number(row, "threads"));
+    EXPECT_NEAR(number(row, "efficiency"), ideal / number(row, "seconds_per_step"), 1e-9);
   }
   EXPECT_EQ(number(rows[4], "elements"), 2 * number(rows[3], "elements"));
 }
@@ -209,6 +213,22 @@ TEST_F(Bench, RanksHoldEachElementOnceAndWhatIsSentIsReceived) {
   EXPECT_GT(sent, 0);
   EXPECT_EQ(ranks(3, "--parts 3"), 2);
   EXPECT_EQ(ranks(1000, ""), 2);  // more than the mesh has pieces
+}
+
+TEST_F(Bench, TheMeanOfTimedPartsPredictsAllRanks) {
+  ASSERT_EQ(call(fmt::format("ranks {} -t 1 --ranks 3 --parts 1 0 2 --set \"scene.element_size=8 mm\" {}",
+                             samples::scene_word("tyre.toml"), kSmoke)),
+            0);
+  const auto rows = records();
+  ASSERT_EQ(rows.size(), 3U);
+  double mean = 0;  // of the ranks without contact
+  for (const std::size_t rank : {1U, 2U}) {
+    const double ratio =
+        number(rows[rank], "seconds_per_step") / number(rows[rank], "predicted_seconds_per_step");
+    EXPECT_NEAR(number(rows[rank], "deviation"), ratio - 1, 1e-9);
+    mean += 0.5 * ratio;
+  }
+  EXPECT_NEAR(mean, 1, 1e-9);
 }
 
 TEST_F(Bench, RanksTakeTheRailWithItsCorrugation) {

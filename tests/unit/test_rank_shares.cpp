@@ -1,12 +1,16 @@
-// Shares of the work that measured times ask for.
+// Times of ranks, and shares of the work that they ask for.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include "drivers/engine/ranks/rank_shares.hpp"
+#include "drivers/run/rank_clock.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -90,6 +94,33 @@ TEST(RankShares, RankZeroWithoutElementsHasTheContactAlone) {
   const TimedShares evened = evened_shares(std::vector{0.0, 0.5, 0.5}, std::vector{0.2, 0.5, 0.5});
   EXPECT_NEAR(evened.shares[0], (1 - 2 * 0.2) / 3, 1e-12);
   EXPECT_NEAR(evened.seconds, 0.4, 1e-12);
+}
+
+/// The second of two ranks, which rank 0 keeps waiting.
+class WaitingRank final : public Ranks {
+ public:
+  int rank() const override { return 1; }
+  int count() const override { return 2; }
+  void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
+  void post(std::span<const RankSegment> /*sent*/) override {}
+  void receive(std::span<const RankSegment> /*received*/) override {}
+  [[noreturn]] void end_all(int code) override { std::exit(code); }
+
+ private:
+  void broadcast_bytes(std::span<std::byte> /*bytes*/) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
+};
+
+TEST(RankClock, WaitsForWhatRankZeroTellsAreNoWork) {
+  WaitingRank ranks;
+  RankClock clock;
+  std::byte told{};
+  for (int step = 0; step < 3; ++step) clock.time(ranks, [&] { ranks.broadcast({&told, 1}); });
+  EXPECT_EQ(ranks.traffic.waits, 3);
+  EXPECT_GE(ranks.traffic.seconds, 3 * 20e-3);
+  EXPECT_LT(clock.take(ranks)[1], 10e-3);
 }
 
 /// Few pieces cannot be dealt out as wanted.

@@ -38,6 +38,11 @@ TEST(Statistics, SmallScatterAboutALargeMeanKeepsItsDigits) {
   EXPECT_DOUBLE_EQ(statistics(values).deviation, 0.25);
 }
 
+TEST(Statistics, MedianOfAnEvenNumberIsTheMeanOfTheMiddleTwo) {
+  EXPECT_EQ(median({3, 1, 2}), 2);
+  EXPECT_EQ(median({4, 1, 7, 2}), 3);
+}
+
 TEST(Statistics, AConstantCurveHasNoCorrelation) {
   std::vector<double> varying, constant, rounded;
   for (int i = 0; i < 1000; ++i) {
