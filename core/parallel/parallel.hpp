@@ -31,6 +31,11 @@ std::string_view backend();
 /// thread that is kept stays so. Empty: no more are kept.
 void bind_threads(std::vector<int> cores);
 
+/// Lets this thread run on all cores of OpenMP's places, on the first of which its library keeps it where the
+/// environment states OMP_PROC_BIND: threads of other libraries and processes inherit its cores. For the
+/// begin of a program.
+void leave_openmp_place();
+
 /// Calls body(first, last) on disjoint ranges that cover [0, n), in parallel. Ranges are contiguous and
 /// depend on the number of threads: body must treat items independently of one another. A body must not call
 /// this function.

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/cli/command_table.hpp"
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
@@ -262,6 +263,7 @@ int main(int argc, char** argv) {
   tread::ignore_file_size_signal();
   return reported("", [&] {
     tread::give_back_large_arrays();
+    tread::leave_openmp_place();
     const std::shared_ptr<tread::Ranks> ranks = tread::launched_ranks();
     tread::choose_ranks(ranks);
     const int code = ranks ? run_on(*ranks, argc, argv) : run(argc, argv);

@@ -6,10 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <initializer_list>
+#include <string_view>
 
 #include "core/error.hpp"
 
@@ -18,6 +21,30 @@ namespace tread {
 namespace {
 
 constexpr int kNotStarted = 127;
+
+/// This process's environment; `unbound`: with all cores for every thread of OpenMP.
+std::vector<std::string> child_environment(bool unbound) {
+  constexpr std::array<std::string_view, 4> kPlaces = {"OMP_PROC_BIND", "OMP_PLACES", "GOMP_CPU_AFFINITY",
+                                                       "KMP_AFFINITY"};
+  std::vector<std::string> texts;
+  for (char** entry = ::environ; *entry; ++entry) {
+    const std::string_view text = *entry;
+    const std::string_view name = text.substr(0, text.find('='));
+    if (!unbound || std::find(kPlaces.begin(), kPlaces.end(), name) == kPlaces.end())
+      texts.emplace_back(text);
+  }
+  if (unbound) texts.emplace_back("OMP_PROC_BIND=false");
+  return texts;
+}
+
+/// The texts as exec takes them, while they live.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
 /// Replaces the child by the program. Only calls that are safe between fork and exec are used. Signals are
 /// blocked.
@@ -51,14 +78,13 @@ std::filesystem::path own_program() {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log,
-                           const std::vector<std::string>& launcher) {
+                           const std::vector<std::string>& launcher, bool beside) {
   std::vector<std::string> texts = launcher;
   texts.push_back(launcher.empty() ? "tread" : own_program().string());
   texts.insert(texts.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
+  std::vector<std::string> settings = child_environment(beside && launcher.empty());
+  const std::vector<char*> words = pointers_to(texts);
+  std::vector<char*> environment = pointers_to(settings);
   const std::string log_name = log.string();
   const pid_t parent = ::getpid();
   // The parent's handlers must not take a signal for the child that comes before exec.
@@ -67,7 +93,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   process_ = ::fork();
-  if (process_ == 0) become(pointers.data(), !launcher.empty(), log_name.c_str(), parent, before);
+  if (process_ == 0) {
+    ::environ = environment.data();
+    become(words.data(), !launcher.empty(), log_name.c_str(), parent, before);
+  }
   const int error = errno;
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (process_ < 0)

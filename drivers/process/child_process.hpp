@@ -23,10 +23,11 @@ std::filesystem::path own_program();
 class ChildProcess {
  public:
   /// Starts the process and appends its output to the file `log`. `launcher`: a program, and its own
-  /// arguments, that starts this one, somewhere; empty: this machine. Throws ResourceError if the system
-  /// refuses.
+  /// arguments, that starts this one, somewhere; empty: this machine. `beside`: others run on this machine at
+  /// the same time, so that OpenMP must not keep the threads of each on the same first cores. Throws
+  /// ResourceError if the system refuses.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log,
-               const std::vector<std::string>& launcher = {});
+               const std::vector<std::string>& launcher = {}, bool beside = false);
 
   /// Returns true if the process has ended; fills `end` then, once.
   bool ended(ProcessEnd& end) const;

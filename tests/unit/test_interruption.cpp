@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <string>
 #include <thread>
 
 #include "core/error.hpp"
@@ -46,15 +48,39 @@ TEST(Interruption, ASecondRequestEndsAtOnce) {
       testing::ExitedWithCode(kResumable), "late");
 }
 
+ProcessEnd end_of(const ChildProcess& child) {
+  ProcessEnd end{-1, -1};
+  while (!child.ended(end)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return end;
+}
+
 // `tread ctl STUDY checkpoint` reaches points that have only just started.
 TEST(ChildProcess, OutlivesARequestBeforeItsHandlerExists) {
   const samples::TemporaryFolder temporary;
   const ChildProcess child({"--gtest_list_tests"}, temporary.path / "log");
   child.send(SIGUSR1);
-  ProcessEnd end{-1, -1};
-  while (!child.ended(end)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const ProcessEnd end = end_of(child);
   EXPECT_EQ(end.signal, 0);
   EXPECT_EQ(end.code, 0);
+}
+
+// The places of OpenMP's threads begin with the same core in every process. The test is its own child, too.
+TEST(ChildProcess, BesideOthersHasNoPlaces) {
+  if (const char* expected = std::getenv("TREAD_TEST_BIND")) {
+    EXPECT_STREQ(std::getenv("OMP_PROC_BIND"), expected);
+    EXPECT_EQ(std::getenv("OMP_PLACES") == nullptr, std::string(expected) == "false");
+    return;
+  }
+  const samples::TemporaryFolder temporary;
+  ::setenv("OMP_PROC_BIND", "close", 1);
+  ::setenv("OMP_PLACES", "cores", 1);
+  for (const bool beside : {false, true}) {
+    ::setenv("TREAD_TEST_BIND", beside ? "false" : "close", 1);
+    const ChildProcess child({"--gtest_filter=ChildProcess.BesideOthersHasNoPlaces"}, temporary.path / "log",
+                             {}, beside);
+    EXPECT_EQ(end_of(child).code, 0) << beside;
+  }
+  for (const char* name : {"OMP_PROC_BIND", "OMP_PLACES", "TREAD_TEST_BIND"}) ::unsetenv(name);
 }
 
 }  // namespace
