@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/math/vec.hpp"
 
@@ -24,6 +25,7 @@ struct BodySpec {
   std::string head, foot;               ///< rail: sets of the nodes under the head, on the fastenings
   std::shared_ptr<const HexMesh> mesh;  ///< of the file, about the origin [m]
   std::string reading;                  ///< sentence on what the file holds
+  std::vector<std::string> notes;       ///< sentences on what of the file is left out
 
   bool on_wheel() const { return replaces == "disc"; }
 };

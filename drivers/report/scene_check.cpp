@@ -16,6 +16,7 @@
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"
 
@@ -68,6 +69,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   std::string text = fmt::format("{}: {}\n", resolved.name,
                                  warnings.empty() ? "no problems found" : "no errors, but warnings");
   for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
+  for (const std::string& note : body_notes(model.scene)) text += fmt::format("  note: {}\n", note);
   text += fmt::format("\n{}\n", plain_text(count_table(by_group(model, measure_blocks(model)))));
   const auto line = [&](const char* name, const std::string& value) {
     text += fmt::format("{:<10}{}\n", name, value);
@@ -115,6 +117,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
 Json check_json(const Model& model, const Estimate& e) {
   Json json = {{"ok", true}, {"problems", Json::array()}};
   json["warnings"] = resolution_warnings(model);
+  json["notes"] = body_notes(model.scene);
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
   json["blocks"] = Json::array();

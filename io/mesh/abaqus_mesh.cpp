@@ -51,6 +51,7 @@ class AbaqusMesh {
  public:
   AbaqusMesh(std::string_view text, MeshFaults& faults) : lines_(text), faults_(faults) {
     source_.format = "Abaqus input file";
+    source_.numbers_parts = false;
   }
 
   MeshSource read() {
@@ -130,11 +131,7 @@ class AbaqusMesh {
     return false;
   }
 
-  static std::string upper(std::string text) {
-    for (char& c : text)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return shown(text);
-  }
+  static std::string upper(std::string_view text) { return shown(upper_case(text)); }
 
   /// Keywords that make or move nodes and elements.
   bool refused(const std::string& name) {
@@ -332,7 +329,7 @@ class AbaqusMesh {
   }
 
   void surface_card(const MeshFields& fields, bool /*continued*/) {
-    const std::string face = upper(std::string(fields[1]));
+    const std::string face = upper(fields[1]);
     if (face.size() != 2 || face[0] != 'S' || face[1] < '1' || face[1] > '6')
       return fault(
           "surfaces that cannot be read",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "io/text/text.hpp"
@@ -19,6 +20,16 @@ bool take_end(std::string& word, std::string_view end) {
   if (!word.ends_with(end)) return false;
   word.resize(word.size() - end.size());
   return true;
+}
+
+/// Returns true for *PART with options that leave title and card in the first place.
+bool is_part_with_options(std::string name) {
+  constexpr std::string_view kOptions[] = {"_INERTIA", "_REPOSITION",       "_CONTACT",
+                                           "_PRINT",   "_ATTACHMENT_NODES", "_FIELD"};
+  const auto take_option = [&](std::string_view option) { return take_end(name, option); };
+  bool taken = true;
+  while (taken) taken = std::any_of(std::begin(kOptions), std::end(kOptions), take_option);
+  return name == "*PART";
 }
 
 double metres_of(std::string_view unit) {
@@ -39,7 +50,7 @@ class KeywordMesh {
       const std::string_view line = lines_.line();
       if (line.starts_with('$')) continue;
       if (line.starts_with('*'))
-        begin(std::string(line));
+        begin(line);
       else if (card_ != nullptr)
         (this->*card_)(line);
     }
@@ -58,10 +69,9 @@ class KeywordMesh {
   }
 
   /// A keyword: its name, in upper case, and an option behind a blank.
-  void begin(std::string line) {
+  void begin(std::string_view written) {
     leave();
-    std::transform(line.begin(), line.end(), line.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+    const std::string line = upper_case(written);
     const std::size_t end = std::min(line.find_first_of(" \t,("), line.size());
     std::string name = line.substr(0, end);
     const std::string_view rest = trimmed(std::string_view(line).substr(end));
@@ -95,11 +105,11 @@ class KeywordMesh {
     if (name == "*NODE") return take(&KeywordMesh::node_card);
     if (name == "*ELEMENT_SOLID") return take(&KeywordMesh::element_card);
     if (name == "*PART") return take(&KeywordMesh::part_card);
-    if (name.starts_with("*PART_") && !name.starts_with("*PART_M"))
-      return take(&KeywordMesh::first_part_card);
+    if (is_part_with_options(name)) return take(&KeywordMesh::first_part_card);
     if (name == "*CONTROL_UNITS") return take(&KeywordMesh::units_card);
     constexpr std::string_view kRefused[] = {"*INCLUDE",        "*ELEMENT_SOLID_", "*ELEMENT_TSHELL",
-                                             "*NODE_TRANSFORM", "*NODE_MERGE",     "*ELEMENT_GENERATE"};
+                                             "*NODE_TRANSFORM", "*NODE_MERGE",     "*ELEMENT_GENERATE",
+                                             "*PART_MOVE",      "*PART_DUPLICATE", "*PART_STACKED"};
     for (const std::string_view refused : kRefused)
       if (name.starts_with(refused)) {
         fault("keywords that cannot be read",
@@ -245,7 +255,12 @@ class KeywordMesh {
     part_pending_ = false;
     std::array<std::int64_t, 10> numbers;
     if (!numbers_of(MeshFields::of_widths(line, kTens), "parts", numbers)) return;
-    source_.parts[numbers[0]] = part_title_.empty() ? std::to_string(numbers[0]) : part_title_;
+    const auto [part, is_new] =
+        source_.parts.try_emplace(numbers[0], part_title_.empty() ? std::to_string(numbers[0]) : part_title_);
+    if (!is_new)
+      fault("part numbers that occur twice",
+            fmt::format("part {} is there already, \"{}\": each needs a number of its own", numbers[0],
+                        shown(part->second)));
   }
   /// Other cards follow those of the first part.
   void first_part_card(std::string_view line) {

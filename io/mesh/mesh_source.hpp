@@ -49,6 +49,7 @@ struct MeshSource {
   std::vector<Node> nodes;
   std::vector<Element> elements;
   std::map<std::int64_t, std::string> parts;  ///< names by number
+  bool numbers_parts = true;                  ///< false: the file has names of parts alone
   std::vector<Set> node_sets, element_sets;
   std::map<std::string, int> ignored;  ///< keywords that are not read, and how often they occur
   double stated_unit = 0;              ///< the file's own statement of its unit of length [m]; 0: none

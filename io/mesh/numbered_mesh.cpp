@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -73,6 +74,14 @@ using Members = std::vector<std::int32_t>;
 void make_unique(Members& members) {
   std::sort(members.begin(), members.end());
   members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+/// "3, 5 and 8"
+std::string number_list(const std::vector<std::int64_t>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ", numbers[i]);
+  return text;
 }
 
 class MeshNumbering {
@@ -196,22 +205,40 @@ class MeshNumbering {
   /// Elements of the wanted parts.
   void choose() {
     chosen_.assign(source_.elements.size(), wish_.parts.empty());
-    for (const std::string& part : wish_.parts) {
-      bool found = false;
-      const auto number = integer_of(part);
-      for (std::size_t e = 0; e < chosen_.size(); ++e) {
-        const auto name = source_.parts.find(source_.elements[e].part);
-        const bool same = (name != source_.parts.end() && lower_case(name->second) == lower_case(part)) ||
-                          (number && *number == source_.elements[e].part);
-        if (same) chosen_[e] = found = true;
-      }
-      if (!found && !choose_set(part))
+    for (const std::string& part : wish_.parts)
+      if (!choose_part(part) && !choose_set(part))
         faults_.add(
             0, "parts that are missing",
             fmt::format("there is no part \"{}\" with hexahedra; there are {}", shown(part), names()));
-    }
     if (source_.elements.empty())
       faults_.add(0, "empty meshes", "there are no hexahedra of 8 nodes: is it the right file?");
+  }
+
+  /// Name of a part, its number where the file has none.
+  std::string part_name(std::int64_t part) const {
+    const auto name = source_.parts.find(part);
+    return name == source_.parts.end() ? std::to_string(part) : name->second;
+  }
+
+  /// Chooses the elements of the part of that number, or else of that name; false where there is none. Fault:
+  /// several parts of the name.
+  bool choose_part(const std::string& wanted) {
+    std::set<std::int64_t> parts, named;
+    for (const MeshSource::Element& element : source_.elements) parts.insert(element.part);
+    const auto number = source_.numbers_parts ? integer_of(wanted) : std::nullopt;
+    if (number && parts.contains(*number))
+      named = {*number};
+    else
+      std::copy_if(parts.begin(), parts.end(), std::inserter(named, named.end()),
+                   [&](std::int64_t part) { return lower_case(part_name(part)) == lower_case(wanted); });
+    if (named.size() > 1)
+      faults_.add(0, "parts of one name",
+                  fmt::format("there are {} parts \"{}\", numbers {}; state the number of one, or a set of "
+                              "elements that holds all",
+                              named.size(), shown(wanted), number_list({named.begin(), named.end()})));
+    for (std::size_t e = 0; e < chosen_.size(); ++e)
+      if (named.contains(source_.elements[e].part)) chosen_[e] = true;
+    return !named.empty();
   }
 
   /// Chooses the elements of the set of that name; false where there is none. Fault: several sets.
@@ -221,14 +248,13 @@ class MeshNumbering {
       if (lower_case(element_sets_.stated[i].name) == lower_case(name) && !element_sets_.known[i]->empty())
         all.push_back(&*element_sets_.known[i]);
     if (all.size() > 1) {
-      std::string sizes;
-      for (const Members* set : all)
-        sizes += fmt::format("{}{}", sizes.empty() ? "" : set == all.back() ? " and " : ", ", set->size());
+      std::vector<std::int64_t> sizes;
+      for (const Members* set : all) sizes.push_back(static_cast<std::int64_t>(set->size()));
       faults_.add(
           0, "sets of one name",
           fmt::format("there are {} sets of elements \"{}\", of {} hexahedra; give each a name of its "
                       "own in the file",
-                      all.size(), shown(name), sizes));
+                      all.size(), shown(name), number_list(sizes)));
       return true;
     }
     for (const Members* set : all)
@@ -238,10 +264,7 @@ class MeshNumbering {
 
   std::string names() const {
     std::set<std::string> known;
-    for (const MeshSource::Element& element : source_.elements) {
-      const auto name = source_.parts.find(element.part);
-      known.insert(name == source_.parts.end() ? std::to_string(element.part) : name->second);
-    }
+    for (const MeshSource::Element& element : source_.elements) known.insert(part_name(element.part));
     for (const MeshSource::Set& set : source_.element_sets) known.insert(set.name);
     std::string text;
     constexpr std::size_t kMost = 12;
@@ -277,10 +300,7 @@ class MeshNumbering {
       lines_.push_back(element.line);
       const auto [part, added] =
           parts.try_emplace(element.part, static_cast<std::int32_t>(mesh.parts.size()));
-      if (added) {
-        const auto name = source_.parts.find(element.part);
-        mesh.parts.push_back(name == source_.parts.end() ? std::to_string(element.part) : name->second);
-      }
+      if (added) mesh.parts.push_back(part_name(element.part));
       mesh.part.push_back(part->second);
     }
     const std::size_t left = source_.nodes.size() - mesh.nodes.size();

@@ -48,7 +48,15 @@ void set_mesh(const std::string& text, const std::string& name, BodySpec& body,
   body.reading =
       fmt::format("{}: {} hexahedra, {} nodes", imported.format, in_thousands(imported.mesh.elements.size()),
                   in_thousands(imported.mesh.nodes.size()));
+  body.notes = std::move(imported.notes);
   body.mesh = std::make_shared<const HexMesh>(std::move(imported.mesh));
+}
+
+std::vector<std::string> body_notes(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const auto& [name, body] : scene.bodies)
+    for (const std::string& note : body.notes) all.push_back(fmt::format("body.{}: {}", name, note));
+  return all;
 }
 
 }  // namespace tread

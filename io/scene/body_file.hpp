@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body_spec.hpp"
+#include "core/scene.hpp"
 #include "io/mesh/imported_mesh.hpp"
 #include "io/scene/problems.hpp"
 
@@ -22,5 +23,8 @@ ImportedMesh mesh_in(const std::string& text, const std::filesystem::path& name,
 /// is then without a mesh.
 void set_mesh(const std::string& text, const std::string& name, BodySpec& body,
               std::vector<Problem>& problems);
+
+/// Sentences on what the bodies' files hold beside the bodies, "body.disc: not read: *MAT_ELASTIC".
+std::vector<std::string> body_notes(const Scene& scene);
 
 }  // namespace tread

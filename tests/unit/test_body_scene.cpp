@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,10 +16,12 @@
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/import/import_study.hpp"
 #include "drivers/studies/multibody/multibody_model.hpp"
+#include "drivers/studies/study/study_plan.hpp"
 #include "io/scene/body_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/device/device.hpp"
 #include "tests/mesh_files.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -57,16 +61,11 @@ class BodyScene : public testing::Test {
   }
   /// The message with which the scene is refused, without the folder's name.
   std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    try {
-      resolved(text, overrides);
-    } catch (const InputError& error) {
-      std::string message = error.what();
-      const std::string folder = folder_.path.string() + "/";
-      for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
-        message.erase(at, folder.size());
-      return message;
-    }
-    return "accepted";
+    std::string message = samples::refusal<InputError>([&] { resolved(text, overrides); });
+    const std::string folder = folder_.path.string() + "/";
+    for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
+      message.erase(at, folder.size());
+    return message;
   }
 
   samples::TemporaryFolder folder_;
@@ -78,6 +77,7 @@ TEST_F(BodyScene, TakesAMeshAboutItsOrigin) {
   const BodySpec& body = scene.bodies.at("web");
   EXPECT_TRUE(body.on_wheel());
   EXPECT_EQ(body.reading, "Abaqus input file: 12 hexahedra, 36 nodes");
+  EXPECT_EQ(body_notes(scene), std::vector<std::string>{"body.web: not read: *SOLID SECTION"});
   ASSERT_TRUE(body.mesh);
   EXPECT_EQ(body.mesh->node_sets.at(body.tread).size(), 12U);
   EXPECT_EQ(body.mesh->node_sets.at(body.axle).size(), 2U);
@@ -125,6 +125,26 @@ TEST_F(BodyScene, ContentsOfTheFileTellScenesApart) {
   EXPECT_NE(apart.find("body.web.file is a .inp file of checksum "), std::string::npos) << apart;
 }
 
+TEST_F(BodyScene, PointsOfAStudyShareFilesAndMeshes) {
+  write("scene.toml", kBase + disc("web"));
+  write("study.toml",
+        "[study]\nscene = \"scene.toml\"\n[grid]\nmotion.speed = [\"200 km/h\", \"300 km/h\"]\n"
+        "body.web.unit = [\"mm\", \"cm\"]\n");
+  const StudyPlan plan = plan_study(read_study(folder_.path / "study.toml"), folder_.path / "runs");
+  ASSERT_EQ(plan.points.size(), 4U);
+  std::set<const std::string*> texts;
+  std::map<std::string, std::set<const HexMesh*>> meshes;
+  for (const PlannedPoint& point : plan.points) {
+    for (const auto& [name, text] : point.resolved.source.files) texts.insert(text.get());
+    const BodySpec& body = point.resolved.scene.bodies.at("web");
+    meshes[body.unit].insert(body.mesh.get());
+  }
+  EXPECT_EQ(texts.size(), 1U);
+  EXPECT_EQ(meshes["mm"].size(), 1U);
+  EXPECT_EQ(meshes["cm"].size(), 1U);
+  EXPECT_NE(meshes["mm"], meshes["cm"]);
+}
+
 TEST_F(BodyScene, UnknownSetsAreRefused) {
   EXPECT_EQ(
       refusal(disc("web"), {"body.web.tread=botom"}),
@@ -158,7 +178,7 @@ TEST_F(BodyScene, OneOfSeveralSetsOfOneNameIsRefused) {
       refusal(web("bottom")),
       "x.toml:8:1: body.web.tread: two.k has several sets \"bottom\"; state \"bottom (1)\" (12 nodes) or "
       "\"bottom (2)\" (2 nodes), or give each a name of its own in the file");
-  EXPECT_EQ(refusal(web("bottom (1)")), "accepted");
+  EXPECT_EQ(refusal(web("bottom (1)")), "");
 }
 
 TEST_F(BodyScene, WrongUnitsAreRefused) {
@@ -177,7 +197,7 @@ TEST_F(BodyScene, MaterialsAreThoseOfTheScene) {
             "gap_filler, mortar, slab, steel (did you mean steel?)");
   const std::string cast =
       "[material.cast]\nyoungs_modulus = \"170 GPa\"\npoissons_ratio = 0.27\ndensity = \"7200 kg/m3\"\n";
-  EXPECT_EQ(refusal(cast + disc("web", "material = \"cast\"\n")), "accepted");
+  EXPECT_EQ(refusal(cast + disc("web", "material = \"cast\"\n")), "");
   const std::string yields = "law = \"j2\"\nyield_stress = \"300 MPa\"\n";
   EXPECT_EQ(refusal(cast + yields + disc("web", "material = \"cast\"\n")),
             "x.toml:16:1: body.web.material: [material.cast] has law = \"j2\", and a body from a file is "
@@ -223,7 +243,7 @@ TEST_F(BodyScene, AnUnclearKindIsTheOnlyProblem) {
 }
 
 TEST_F(BodyScene, APartIsReplacedOnce) {
-  EXPECT_EQ(refusal(disc("a") + rail("b")), "accepted");
+  EXPECT_EQ(refusal(disc("a") + rail("b")), "");
   EXPECT_EQ(refusal(disc("a") + disc("b")),
             "x.toml:11:1: body.b.replaces: \"disc\" is replaced by [body.a] too; state body.b.present = "
             "false, or one mesh of both in one table");
@@ -237,7 +257,7 @@ TEST_F(BodyScene, NeedsThePartThatItReplaces) {
   const std::string struck =
       "[hammer]\nposition = \"0 m\"\nforce = \"1 kN\"\nduration = \"20 us\"\n[wheel]\npresent = false\n"
       "[vehicle]\npresent = false\n[contact]\npresent = false\n";
-  EXPECT_EQ(refusal(rail("web") + struck), "accepted");
+  EXPECT_EQ(refusal(rail("web") + struck), "");
   EXPECT_EQ(refusal(disc("web") + struck),
             "x.toml:5:1: body.web.replaces: \"disc\" is a part of the wheel, and there is none; add [wheel], "
             "or state body.web.present = false");
@@ -261,24 +281,17 @@ TEST_F(BodyScene, KeysOfTheDiscThatIsReplacedAreNamed) {
 /// Steps on a device, decks and the multi-body approach know swept parts alone.
 TEST_F(BodyScene, IsRefusedWhereItCannotBeUsed) {
   const ResolvedScene scene = resolved(disc("web"));
-  const auto message = [](const auto& act) -> std::string {
-    try {
-      act();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
   choose_device("emulated");
-  const std::string on_device = message([&] { scene_model(scene.scene, scene); });
-  const std::string timed = message([&] { const RollingScene rolling(scene, Progress(true)); });
+  const std::string on_device = samples::refusal<InputError>([&] { scene_model(scene.scene, scene); });
+  const std::string timed =
+      samples::refusal<InputError>([&] { const RollingScene rolling(scene, Progress(true)); });
   choose_device("cpu");
   EXPECT_EQ(
       on_device,
       "body.web: the steps of a body from a file are those of one process; leave out --device, or state "
       "body.web.present = false");
   EXPECT_EQ(timed, on_device);
-  EXPECT_EQ(message([&] { multibody_model(scene.scene, BeamTheory::timoshenko); }),
+  EXPECT_EQ(samples::refusal<InputError>([&] { multibody_model(scene.scene, BeamTheory::timoshenko); }),
             "tread multibody: body.web has no section, from which masses and modes are made; state "
             "body.web.present = false");
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh/imported_mesh.hpp"
@@ -127,6 +128,37 @@ TEST(ImportedMesh, TakesPartsByNameNumberOrSet) {
   }
   EXPECT_EQ(sound(files()[0], {1e-3, {"7"}, 1}).mesh.elements.size(), 8U);
   EXPECT_EQ(sound(files()[4], {1e-3, {"row"}, 1}).mesh.elements.size(), 3U);
+}
+
+/// Only where the file has numbers of parts; two parts of a name are told apart by them.
+TEST(ImportedMesh, TakesNumbersOfPartsBeforeNames) {
+  const auto renamed = [](std::string text, const std::vector<std::pair<std::string, std::string>>& names) {
+    for (const auto& [from, to] : names) text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  const std::string deck = keyword_file(SolidCards::one);
+  EXPECT_EQ(sound({"a.k", renamed(deck, {{"left end", "7"}})}, {1e-3, {"7"}, 1}).mesh.elements.size(), 8U);
+  const std::string twins = renamed(deck, {{"left end", "right end"}});
+  MeshFaults faults;
+  mesh_of(twins, "a.k", {1e-3, {"Right end"}, 1}, faults);
+  ASSERT_EQ(faults.list().size(), 1U);
+  EXPECT_EQ(faults.list().front().message,
+            "there are 2 parts \"Right end\", numbers 3 and 7; state the number");
+  EXPECT_EQ(sound({"a.k", twins}, {1e-3, {"3"}, 1}).mesh.elements.size(), 4U);
+  const std::string sets = renamed(
+      abaqus_file(),
+      {{"ELSET=left end", "ELSET=2"}, {"ELSET=right end", "ELSET=1"}, {"LEFT END, \"right end\"", "11, 12"}});
+  EXPECT_EQ(sound({"a.inp", sets}, {1e-3, {"1"}, 1}).mesh.elements.size(), 8U);
+}
+
+/// Other keywords of parts have other cards in the place of the title's.
+TEST(ImportedMesh, TakesTitlesFromPartsAlone) {
+  std::string text = keyword_file(SolidCards::one);
+  text.insert(text.find("right end"), "*PART_INERTIA_CONTACT\n");
+  text.insert(text.find("*NODE\n"), "       0.5\n*PART_SENSOR\n         3         5\n         4\n");
+  const ImportedMesh imported = sound({"a.k", text});
+  EXPECT_EQ(imported.mesh.parts, (std::vector<std::string>{"left end", "right end"}));
+  EXPECT_EQ(imported.notes.front(), "not read: *DATABASE_GLSTAT, *PART_SENSOR, *TITLE");
 }
 
 TEST(ImportedMesh, ReadsNumbersInTenCharacters) {
