@@ -302,6 +302,7 @@ struct ProbeSpec {
 
   bool has_motion() const { return quantity != "stress"; }
   bool has_stress() const { return quantity != "motion"; }
+  bool operator==(const ProbeSpec&) const = default;
 };
 
 /// [output]

@@ -43,6 +43,16 @@ void require_on_wheel(const Model& model, double x, const std::string& what) {
 
 }  // namespace
 
+bool is_column_of(const std::string& probe, const std::string& column) {
+  const auto among = [&](const char* quantity, const auto& components) {
+    return std::ranges::any_of(components, [&](const char* component) {
+      return column == fmt::format("{}_{}_{}", probe, quantity, component);
+    });
+  };
+  return among("displacement", kAxes) || among("velocity", kAxes) || among("acceleration", kAxes) ||
+         among("stress", kStresses) || column == probe + "_von_mises";
+}
+
 Measurements::Measurements(const Model& model, double patch_y) : model_(&model) {
   const OutputSpec& output = model.scene.output;
   for (const auto& [name, spec] : model.scene.probes) add_probe(name, spec);

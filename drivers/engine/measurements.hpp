@@ -24,6 +24,9 @@ struct MeasuredChannel {
   double at = 0;  ///< x of a fastening, depth of a quad under the patch [m]
 };
 
+/// Returns true for the names of the columns that the probe of that name has.
+bool is_column_of(const std::string& probe, const std::string& column);
+
 /// Observes; changes nothing of the motion and has no state that outlives a step.
 class Measurements final : public Feature {
  public:

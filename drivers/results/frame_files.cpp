@@ -202,6 +202,7 @@ void FrameFiles::copy(const Simulation& simulation) {
   }
   at_.wheel = simulation.wheel();
   if (model_->contact) at_.patch = model_->contact->nodes();
+  std::erase(damaged_, at_.steps);  // not in write(), beside which count() reads them
 }
 
 void FrameFiles::begin() {
@@ -224,7 +225,6 @@ void FrameFiles::write_copy() {
     places_[static_cast<std::size_t>(block)] = {at_.wheel.origin, at_.wheel.angle};
   write_vtk_frame(step_file(folder(), at_.steps, kSuffix),
                   {mesh_name(grid_.kind), at_.time, points(), arrays(), root_attributes(model_->scene)});
-  std::erase(damaged_, at_.steps);
   write_series();
 }
 

@@ -48,7 +48,7 @@ class FrameFiles {
   /// Sentences on files in the folder that are no frames, and on frames up to a step that it lacks.
   std::vector<std::string> gaps(std::int64_t steps) const;
 
-  /// Number of frames in the folder.
+  /// Number of frames in the folder. It may be called while write() runs.
   std::size_t count() const;
 
   /// Copies the frames of the run in another folder up to a step. Throws ResourceError.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/engine/measurements.hpp"
 #include "drivers/engine/model/sections.hpp"
 #include "drivers/results/rail_ends.hpp"
 #include "drivers/results/run_results.hpp"
@@ -187,6 +188,26 @@ SealedContent state_of(SealedContent content, const RunOrder& order) {
   return content;
 }
 
+/// Takes the values out of the columns of a probe.
+void forget_probe(const std::string& probe, MeasuredRows::Kept& kept) {
+  const std::size_t width = kept.names.size();
+  for (std::size_t c = 0; c < width; ++c) {
+    if (!is_column_of(probe, kept.names[c])) continue;
+    for (std::size_t i = c; i < kept.values.size(); i += width)
+      kept.values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// Takes the values of probes that are others here out of the state.
+void forget_other_probes(const Scene& there, const Scene& here, SealedContent& content) {
+  MeasuredRows::Kept kept = unpack_measured(content);
+  for (const auto& [name, probe] : here.probes) {
+    const auto other = there.probes.find(name);
+    if (other != there.probes.end() && other->second != probe) forget_probe(name, kept);
+  }
+  pack_measured(std::move(kept), content);
+}
+
 }  // namespace
 
 Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& progress) {
@@ -202,6 +223,7 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
   Fork fork{order_of(wanted, here, there), {}, there.scene.corrugation};
   fork.order.origin = {place.folder.string(), sealed_value<double>(found.content, "state/time"), found.steps};
   fork.content = state_of(std::move(found.content), fork.order);
+  forget_other_probes(there.scene, here.scene, fork.content);
   return fork;
 }
 
@@ -224,7 +246,7 @@ std::string kept_state_text(const Fork& fork) {
   return fmt::format(" (--from {}@{:.9g}ms has a state kept for forks)", origin.folder, 1e3 * time);
 }
 
-void require_same_past(const Fork& fork, const Model& model) {
+void require_same_past(const Fork& fork, const Model& model, const std::vector<Sample>& samples) {
   constexpr double kSame = 1e-9;  // [m]
   const Corrugation& here = model.contact->corrugation();
   const Corrugation there =
@@ -232,11 +254,13 @@ void require_same_past(const Fork& fork, const Model& model) {
                        : Corrugation{};
   static_assert(offsetof(BodyFrame, origin) == 0 && offsetof(Vec3, x) == 0);
   const auto& wheel_frame = sealed_entry<std::vector<double>>(fork.content, "state/wheel_frame");
-  const double reached = wheel_frame.at(0) + model.contact->reach();
+  double foremost = wheel_frame.at(0);  // a braked wheel may have come back
+  for (const Sample& sample : samples) foremost = std::max(foremost, sample.wheel_x);
+  const double reached = foremost + model.contact->reach();
   const std::optional<double> differs = first_difference(here, there, reached, kSame);
   if (!differs) return;
   throw InputError(fmt::format(
-      "--from {}: at t = {:.6g} ms the patch may reach x = {:.4f} m, but the corrugations differ "
+      "--from {}: up to t = {:.6g} ms the patch may reach x = {:.4f} m, but the corrugations differ "
       "by more than 1 nm "
       "from x = {:.4f} m on; fork at an earlier time{}, or let the corrugation begin later",
       fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs, kept_state_text(fork)));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/corrugation.hpp"
 #include "core/travel.hpp"
@@ -23,16 +24,17 @@ struct Fork {
 };
 
 /// From "DIR@TIME", such as "out@10 ms": the last state that the run in DIR has kept up to that time; from
-/// "DIR": its last. `wanted`: the run that begins, its scene's source, overrides and command. InputError
-/// where there is no such state, or where the scenes differ in what the state depends on.
+/// "DIR": its last. `wanted`: the run that begins, its scene's source, overrides and command. Probes that
+/// differ have no values before the state. InputError where there is no such state, or where the scenes
+/// differ in what the state depends on.
 Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& progress);
 
 /// Depth of a corrugation that forks of the run in "DIR" or "DIR@TIME" have room for [m]. InputError.
 double fork_room(const std::string& from);
 
 /// InputError where the rail that the wheel has met so far is not that of the other run. `model`: of the run
-/// that begins, corrugated.
-void require_same_past(const Fork& fork, const Model& model);
+/// that begins, corrugated. `samples`: of the state.
+void require_same_past(const Fork& fork, const Model& model, const std::vector<Sample>& samples);
 
 /// Values that tell when the wheel of a run with [forks] comes near a place.
 struct Approach {

@@ -1,5 +1,7 @@
 #include "drivers/run/point_state.hpp"
 
+#include <system_error>
+
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 
@@ -18,6 +20,11 @@ const char* name_of(PointState state) {
     default:
       return "waiting";
   }
+}
+
+void forget_failure(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / kFailure, ignored);
 }
 
 PointState state_left_in(const std::filesystem::path& folder) {

@@ -18,6 +18,9 @@ enum class PointState {
 /// Name for readers, such as "done".
 const char* name_of(PointState state);
 
+/// Removes kFailure: of a run that goes on, or has ended in another way.
+void forget_failure(const std::filesystem::path& folder);
+
 /// State of a folder that no process works on, and that need not exist.
 PointState state_left_in(const std::filesystem::path& folder);
 

@@ -338,9 +338,8 @@ std::string Rolling::progress_line() const {
       fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation_->time(), 1e3 * end,
                   100 * simulation_->time() / end, simulation_->dt());
   if (model_->contact)
-    line +=
-        fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
-                    sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
+    line += fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x,
+                        1e-3 * sample.vertical_force, sample.traction());
   line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
                       1e9 * step_seconds() / static_cast<double>(model_->elements()),
                       duration_text(seconds_left()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -110,7 +111,7 @@ SealedContent pack_order(const RunOrder& order) {
   std::vector<std::string> names, texts;
   for (const auto& [name, text] : order.scene.files) {
     names.push_back(name);
-    texts.push_back(text);
+    texts.push_back(*text);
   }
   pack_texts("order/file_names", names, content);
   pack_texts("order/file_texts", texts, content);
@@ -136,7 +137,7 @@ RunOrder unpack_order(const SealedContent& content) {
   const std::vector<std::string> names = unpack_texts(content, "order/file_names");
   const std::vector<std::string> texts = unpack_texts(content, "order/file_texts");
   for (std::size_t i = 0; i < std::min(names.size(), texts.size()); ++i)
-    order.scene.files[names[i]] = texts[i];
+    order.scene.files[names[i]] = std::make_shared<const std::string>(texts[i]);
   order.overrides = unpack_texts(content, "order/overrides");
   order.later = unpack_texts(content, "order/later");
   order.resolved = text("order/resolved");
@@ -201,9 +202,7 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
   StateList samples;
   samples.add_records(kSamples, std::span(results.samples));
   pack(samples, "histories", content);
-  MeasuredRows::Kept measured = results.measured.kept();
-  pack_texts(kMeasured + "/names", measured.names, content);
-  content[kMeasured + "/values"] = std::move(measured.values);
+  pack_measured(results.measured.kept(), content);
   pack(simulation.state(), "state", content);
   if (!patch.empty()) content["patch.h5"] = std::move(patch);
   return content;
@@ -220,6 +219,11 @@ void unpack_results(const SealedContent& content, RunResults& results) {
   StateList samples;
   samples.add_records(kSamples, std::span(results.samples));
   unpack(content, "histories", samples);
+}
+
+void pack_measured(MeasuredRows::Kept measured, SealedContent& content) {
+  pack_texts(kMeasured + "/names", measured.names, content);
+  content[kMeasured + "/values"] = std::move(measured.values);
 }
 
 MeasuredRows::Kept unpack_measured(const SealedContent& content) {

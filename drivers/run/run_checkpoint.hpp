@@ -53,6 +53,8 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
 /// again.
 void unpack_results(const SealedContent& content, RunResults& results);
 
+/// Puts measured values in the place of those in the content, if any.
+void pack_measured(MeasuredRows::Kept measured, SealedContent& content);
 /// The measured values of `results` as pack_run() took them; their columns are those of that run.
 MeasuredRows::Kept unpack_measured(const SealedContent& content);
 

@@ -32,7 +32,7 @@ void rehearse_fork(const RunSession& session, const Fork& fork) {
   Model model = run_model(made, &fork.content, results);
   adopt_later_values(model, session.resolved.scene);
   require_same_mesh(fork.content, model);
-  require_same_past(fork, model);
+  require_same_past(fork, model, results.samples);
   require_device_memory(model);
   require_disk(model, results.dt, file_bytes(session.order.scene));
   require_fork_step(model, results.dt, fork.order.origin->steps);

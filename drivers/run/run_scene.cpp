@@ -26,6 +26,7 @@
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "drivers/run/fork.hpp"
+#include "drivers/run/point_state.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/rolling.hpp"
 #include "drivers/run/run_model.hpp"
@@ -34,6 +35,7 @@
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/text/text_file.hpp"
 #include "kernels/device/device.hpp"
 
@@ -128,7 +130,7 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
 
 /// The other run's state becomes the first checkpoint of this one.
 void begin_fork(RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
-  require_same_past(fork, model);
+  require_same_past(fork, model, results.samples);
   require_disk(model, results.dt, file_bytes(session.order.scene));
   const ForkOrigin& origin = *fork.order.origin;
   require_fork_step(model, results.dt, origin.steps);
@@ -143,11 +145,14 @@ void begin_fork(RunSession& session, const Fork& fork, const Model& model, RunRe
                   origin.folder, origin.time, origin.steps));
 }
 
-/// Calls `act` and shows in status.json why it failed; a run that was stopped has shown that itself.
+/// Calls `act` and shows in status.json why it failed; a run that was stopped has shown that itself. What a
+/// study has noted of an earlier failure holds no more unless it fails again.
 void showing_failure(const RunSession& session, const std::function<void()>& act) {
   try {
     act();
+    forget_failure(session.folder.path());
   } catch (const Interrupted&) {
+    forget_failure(session.folder.path());
     throw;
   } catch (const std::exception& error) {
     session.show("failed", error.what());
@@ -156,8 +161,8 @@ void showing_failure(const RunSession& session, const std::function<void()>& act
 }
 
 /// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
-/// included.
-void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
+/// included; it is left empty.
+void carry_out(RunSession& session, SealedContent* checkpoint, const Fork* fork = nullptr) {
   const bool resumed = checkpoint && !fork;
   if (!resumed) keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
@@ -173,6 +178,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
                                     model.mesh.parts(), duration_text(seconds_mesh)));
   const std::vector<std::string> of_mesh = resolution_warnings(model);
   for (const std::string& warning : of_mesh) session.progress.say("[warning] " + warning);
+  for (const std::string& note : body_notes(model.scene)) session.progress.say("[note] " + note);
   const Scene& scene = model.scene;
   if (checkpoint) {
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
@@ -190,6 +196,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     Rolling rolling(session, model, results);
     if (checkpoint) {
       rolling.go_on(*checkpoint);
+      checkpoint->clear();  // it is as large as the run's own state
       // Not before: a refused checkpoint must leave the scene of the run as it was.
       if (resumed) keep_scene(session.folder.path(), session.resolved);
     } else {
@@ -353,7 +360,7 @@ void resume_run(const RunOptions& options) {
     if (options.json) fmt::print("{}", read_text_file(session.folder / "summary.json", 1 << 24));
     return;
   }
-  const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
+  std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
   read_order(session, found);
   if (found)
     session.progress.say(fmt::format("[resume] from {}", found->path.string()));

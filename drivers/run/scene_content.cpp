@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -64,17 +64,18 @@ std::string file_text_at(const fs::path& place) {
   return "";
 }
 
-/// Text with that checksum: one of `known`, or that of a file in places_of_file(); nullopt if there is none.
-std::optional<std::string> text_of_checksum(const std::string& sum, const fs::path& place,
-                                            const fs::path& folder, const SceneFiles& known) {
+/// Text with that checksum: one of `known`, or that of a file in places_of_file(); null if there is none.
+std::shared_ptr<const std::string> text_of_checksum(const std::string& sum, const fs::path& place,
+                                                    const fs::path& folder, const SceneFiles& known) {
   for (const auto& [name, text] : known)
-    if (checksum(text) == sum) return text;
+    if (checksum(*text) == sum) return text;
   for (const fs::path& one : places_of_file(place, folder)) {
     std::error_code ignored;
     if (!fs::is_regular_file(one, ignored)) continue;
-    if (std::string text = file_text_at(one); checksum(text) == sum) return text;
+    if (std::string text = file_text_at(one); checksum(text) == sum)
+      return std::make_shared<const std::string>(std::move(text));
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ SceneContent content_of(const ResolvedScene& resolved, const std::function<bool(
     const Key key = *find_key(entry.path);
     if (!counts(key.effects)) continue;
     const auto file = key.takes_file ? files.find(entry.value) : files.end();
-    content[entry.path] = file != files.end()  ? file_value(entry.value, checksum(file->second))
+    content[entry.path] = file != files.end()  ? file_value(entry.value, checksum(*file->second))
                           : entry.unit.empty() ? entry.value
                                                : entry.value + " " + entry.unit;
   }
@@ -108,16 +109,20 @@ SceneContent preload_content(const ResolvedScene& resolved) {
 }
 
 void add_run(SceneContent& content, const Scene& scene) {
-  const Span run = run_span(scene);
-  content["run"] = fmt::format("{} m to {} m", run.first, run.last);
+  for (const auto& [name, span] : {std::pair("run", run_span(scene)), std::pair("zone", zone_span(scene))})
+    content[name] = fmt::format("{} m to {} m", span.first, span.last);
 }
 
 void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
   write_text_file(folder / kKeptScene,
                   fmt::format("# Written by tread {}.\n{}", program_version(), resolved_toml(resolved)));
-  if (resolved.source.files.empty()) return;
+  if (resolved.source.files.empty()) {
+    std::error_code ignored;
+    fs::remove(folder / kChecksums, ignored);  // of an earlier scene
+    return;
+  }
   Json json;
-  for (const auto& [place, text] : resolved.source.files) json[place] = checksum(text);
+  for (const auto& [place, text] : resolved.source.files) json[place] = checksum(*text);
   write_text_file(folder / kChecksums, json_text(json));
 }
 
@@ -127,8 +132,8 @@ KeptScene kept_scene(const fs::path& folder, const SceneFiles& known) {
   std::string missing;
   for (const auto& [place, value] : sums) {
     const std::string sum = text_in(sums, place);
-    if (std::optional<std::string> text = text_of_checksum(sum, place, folder, known))
-      source.files[place] = std::move(*text);
+    if (auto text = text_of_checksum(sum, place, folder, known))
+      source.files[place] = std::move(text);
     else if (std::error_code unknown; !fs::exists(place, unknown))
       missing += fmt::format("\n{} of checksum {}", place, sum);
   }

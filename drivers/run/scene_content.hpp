@@ -23,11 +23,11 @@ SceneContent content_of(const ResolvedScene& resolved, const std::function<bool(
 /// Everything that the results depend on (Effects::on_results).
 SceneContent scene_content(const ResolvedScene& resolved);
 
-/// Everything that the preload depends on (Effects::on_preload), the stretch of track that the wheel can
-/// touch included.
+/// Everything that the preload depends on (Effects::on_preload), add_run() included.
 SceneContent preload_content(const ResolvedScene& resolved);
 
-/// Adds the stretch of track that the wheel can touch, by which many keys together act on the mesh.
+/// Adds the stretch of track that the wheel can touch, and the finely divided one, which is another where it
+/// stands: by them many keys together act on the mesh.
 void add_run(SceneContent& content, const Scene& scene);
 
 inline constexpr const char* kKeptScene = "scene.resolved.toml";  ///< of a run's or a study's folder

@@ -18,7 +18,6 @@ inline constexpr int kCheckpointFileVersion = 3;
 
 /// Stages in the writing of a checkpoint.
 enum class CheckpointStage { begun, sealed, verified, in_place, old_removed };
-inline constexpr int kCheckpointStages = 5;
 
 /// Called with each stage as it is reached.
 using CheckpointObserver = std::function<void(CheckpointStage)>;

@@ -85,7 +85,10 @@ void ContentCache::store(const std::string& key, SealedContent content) const {
   const FileLock lock = take(folder_);
   remove_entry_parts(folder_);
   const fs::path path = path_of(folder_, key);
-  replace_file(path, [&](const fs::path& part) { write_sealed(part, kCachedKind, kVersion, content); });
+  replace_file(path, [&](const fs::path& part) {
+    write_sealed(part, kCachedKind, kVersion, content);
+    require_room_for(part);
+  });
   trim(path);
 }
 
@@ -110,6 +113,15 @@ std::vector<ContentCache::Entry> ContentCache::entries() const {
   };
   std::sort(list.begin(), list.end(), [&](const Entry& a, const Entry& b) { return known(a) > known(b); });
   return list;
+}
+
+void ContentCache::require_room_for(const fs::path& part) const {
+  std::error_code ignored;
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(part, ignored));
+  if (bytes > limit_)
+    throw ResourceError(fmt::format("it has {:.1f} MB, and TREAD_CACHE_LIMIT leaves {} {:.1f} MB",
+                                    1e-6 * static_cast<double>(bytes), folder_.string(),
+                                    1e-6 * static_cast<double>(limit_)));
 }
 
 void ContentCache::trim(const fs::path& stored) const {

@@ -23,8 +23,8 @@ class ContentCache {
   /// key is unusable, the reason goes to `refused`.
   std::optional<SealedContent> find(const std::string& key, std::string& refused) const;
 
-  /// Stores the content, then removes the least recently used files until the limit is kept, that of the key
-  /// last. Throws ResourceError; the older files then stay.
+  /// Stores the content, then removes the least recently used other files until the limit is kept. Throws
+  /// ResourceError, also where the content alone is beyond the limit; the older files then stay.
   void store(const std::string& key, SealedContent content) const;
 
   /// Lock of the process that computes the content of the key; nullopt while another process holds it. It
@@ -47,6 +47,8 @@ class ContentCache {
   std::int64_t limit() const { return limit_; }
 
  private:
+  /// ResourceError where the file alone is beyond the limit.
+  void require_room_for(const std::filesystem::path& part) const;
   /// Removes files beyond the limit, `stored` last.
   void trim(const std::filesystem::path& stored) const;
 

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
@@ -198,6 +200,30 @@ TEST_F(Fork, RefusalsLeaveTheRunThatItWouldThrowAway) {
     EXPECT_TRUE(fs::exists(folder_ / name) && content_of(folder_ / name) == content_of(root_ / "sine" / name))
         << name;
   EXPECT_TRUE(fs::exists(folder_ / "forks"));
+}
+
+/// Values of two places in one column would have a jump, and their rates a spike.
+TEST_F(Fork, AProbeThatHasMovedHasNoPast) {
+  const auto probes = [](const char* moved, int steps) {
+    return fmt::format("--set \"probe.moved.x={}\" --set \"probe.still.x=0.1 m\" --set stop.steps={}", moved,
+                       steps);
+  };
+  const fs::path other = root_ / "probed";
+  ASSERT_EQ(call(run("smooth.toml", other, probes("0.1 m", 1000))), 4) << errors();
+  ASSERT_EQ(call(from("smooth.toml", "probed", probes("0.12 m", 1100))), 4) << errors();
+  const auto column = [](const fs::path& folder, const char* name) {
+    return Hdf5File::open_to_read(folder / "run.h5").read<double>(fmt::format("/histories/{}", name));
+  };
+  const std::size_t past = column(other, "time").size();
+  const std::vector<double> velocity = column(folder_, "moved_velocity_z"),
+                            acceleration = column(folder_, "moved_acceleration_z"),
+                            still = column(folder_, "still_velocity_z");
+  ASSERT_GT(velocity.size(), past + 1);
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    EXPECT_EQ(std::isnan(velocity[i]), i < past) << i;
+    EXPECT_EQ(std::isnan(acceleration[i]), i <= past) << i;
+    EXPECT_FALSE(std::isnan(still[i])) << i;
+  }
 }
 
 /// Names of files that stay the same hide what changed in them.

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "drivers/engine/start/step_limit.hpp"
@@ -179,6 +180,15 @@ TEST_P(Frames, LieWholeInTheFolder) {
   EXPECT_EQ(series().find("000007"), std::string::npos);
   EXPECT_NE(series().find("000041"), std::string::npos);
   EXPECT_FALSE(FrameFiles(model_, folder_, kSteps, dt_, kSteps).due(kSteps));  // it is there
+  // Frames are counted while a damaged one is written again: the thread sanitizer looks on.
+  std::ofstream(frame(kSteps + 1)) << "x";
+  FrameFiles mended = files();
+  EXPECT_EQ(mended.count(), 1U);
+  mended.copy(*simulation_);
+  std::thread writer([&] { mended.write(); });
+  EXPECT_LE(mended.count(), 2U);
+  writer.join();
+  EXPECT_EQ(mended.count(), 2U);
   FrameFiles::remove(folder_);
   EXPECT_TRUE(fs::is_empty(folder_));
 }

@@ -422,7 +422,7 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   options.output = root_ / "short";
   ASSERT_EQ(wait_for(child([&] { run_scene(resolve_scene(fs::path(kTyre), values), options); })), 0);
   options.output = folder_;
-  for (int stage = 0; stage < kCheckpointStages; ++stage) {
+  for (int stage = 0; stage <= static_cast<int>(CheckpointStage::old_removed); ++stage) {
     int seen = 0;
     options.observer = [&](CheckpointStage reached) {
       if (static_cast<int>(reached) == stage && ++seen == 2) ::kill(::getpid(), SIGKILL);

@@ -18,6 +18,7 @@
 #include "io/files/sealed_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/program.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -33,12 +34,7 @@ void overwrite(const fs::path& path, const std::string& bytes) {
 
 /// Why the file is refused; empty: it is not.
 std::string refusal(const fs::path& path) {
-  try {
-    read_sealed(path, "checkpoint", 1);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return samples::refusal<InputError>([&] { read_sealed(path, "checkpoint", 1); });
 }
 
 SealedContent sample(double value) {
@@ -192,12 +188,7 @@ TEST_F(Checkpoints, AFolderThatMayNotBeReadIsNoDamage) {
   if (user == 0) {
     ASSERT_EQ(::seteuid(65534), 0);  // root may read everywhere, nobody may not
   }
-  std::string message;
-  try {
-    checkpoints_.newest(refused_);
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  const std::string message = samples::refusal<InputError>([&] { checkpoints_.newest(refused_); });
   ASSERT_EQ(::seteuid(user), 0);
   fs::permissions(folder_, fs::perms::owner_all);
   EXPECT_EQ(message,
@@ -205,7 +196,7 @@ TEST_F(Checkpoints, AFolderThatMayNotBeReadIsNoDamage) {
 }
 
 TEST_F(Checkpoints, AKillAtAnyStageLeavesASoundOne) {
-  for (int stage = 0; stage < kCheckpointStages; ++stage) {
+  for (int stage = 0; stage <= static_cast<int>(CheckpointStage::old_removed); ++stage) {
     checkpoints_.clear();
     fs::create_directories(folder_);
     checkpoints_.write(1, sample(1));

@@ -7,12 +7,15 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/text/json.hpp"
 #include "tests/program_test.hpp"
+#include "tests/refusal.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -150,6 +153,25 @@ TEST(Approach, CountsCreepageIn) {
   EXPECT_NEAR(approach.time(motion, 2.4), 2.36 / (motion.speed * (1 + 2.0 / 9)), 1e-12);
   motion.creepage = -0.5;
   EXPECT_NEAR(approach.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
+}
+
+/// A braked wheel comes back from rail that it has met.
+TEST(ForkedPast, ReachesAsFarAsTheWheelHasBeen) {
+  const Model model(
+      tyre_scene({"scene.element_size=10 mm", "corrugation.apply=gap", "corrugation.wavelength=20 mm",
+                  "corrugation.depth=0.02 mm", "corrugation.start=0.1 m", "corrugation.length=0.1 m",
+                  "solution_zone.length=150 mm"}),
+      0.0);
+  Fork fork;
+  fork.order.origin = {"nowhere", 1e-3, 10};
+  fork.content["state/wheel_frame"] = std::vector<double>{0.0};
+  const auto past = [&](double farthest) {
+    Sample sample;
+    sample.wheel_x = farthest;
+    return refusal<InputError>([&] { require_same_past(fork, model, {sample}); });
+  };
+  EXPECT_EQ(past(0), "");
+  EXPECT_TRUE(has(past(0.15), "the corrugations differ")) << past(0.15);
 }
 
 /// Without runs.

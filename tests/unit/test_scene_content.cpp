@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "tests/program.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -62,14 +63,8 @@ TEST_F(SceneOnATable, AFileThatIsNotThereIsKnownByItsChecksum) {
   std::filesystem::rename(folder_.path / "depth.txt", other);
   EXPECT_EQ(kept_scene(run, files).resolved.scene.corrugation->table_x.size(), 3U);
   const std::string place = (folder_.path / "depth.txt").string();
-  try {
-    kept_scene(run);
-    ADD_FAILURE() << "a scene without its file";
-  } catch (const InputError& error) {
-    EXPECT_TRUE(samples::has(error.what(),
-                             "put them back, or into " + run.string() + ":\n" + place + " of checksum "))
-        << error.what();
-  }
+  samples::expect_part(samples::refusal<InputError>([&] { kept_scene(run); }),
+                       "put them back, or into " + run.string() + ":\n" + place + " of checksum ");
   std::filesystem::rename(other, run / "depth.txt");
   EXPECT_EQ(
       difference(scene_content(resolve_scene(SceneSource{"test", kText, run})), kept_scene(run).content), "");
@@ -103,6 +98,27 @@ TEST(PreloadContent, HasTheTractionOfAStartWithoutRamp) {
   EXPECT_EQ(difference(content(0.1, "5 ms"), content(0.1, "4 ms")), "");
   EXPECT_TRUE(samples::has(difference(content(0.1, "0 ms"), content(0.2, "0 ms")), "motion.traction.mu"));
   EXPECT_NE(difference(content(0.1, "0 ms"), content(0.1, "1 us")), "");
+}
+
+TEST_F(SceneOnATable, AnotherWithoutFilesLeavesNoChecksums) {
+  keep_scene(folder_.path, resolved());
+  const SceneSource plain{"test", "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n", "."};
+  keep_scene(folder_.path, resolve_scene(plain));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path / "scene.files.json"));
+}
+
+/// Where it stands, away from the solution zone, the track is fine under it.
+TEST(PreloadContent, TellsAWheelThatStandsFromOneThatMoves) {
+  const auto content = [](const char* mu) {
+    const std::string text = "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n";
+    return preload_content(
+        resolve_scene(SceneSource{"test", text, "."},
+                      {"motion.speed=0 km/h", "motion.duration=20 ms", "motion.traction.ramp=1 ms",
+                       "vehicle.longitudinal=free", std::string("motion.traction.mu=") + mu}));
+  };
+  EXPECT_EQ(difference(content("0.01"), content("0.02")), "");
+  EXPECT_EQ(difference(content("0.25"), content("0.3")), "");
+  EXPECT_TRUE(samples::has(difference(content("0.01"), content("0.3")), "zone is "));
 }
 
 TEST_F(SceneOnATable, NeedsNoChecksums) {
