@@ -19,15 +19,15 @@ for point in points:
         sys.exit(f"{sys.argv[1]}: {point['point']} is {point['state']}: run the study to its end first")
 
     def value(column):
-        return float(point[column]) + 0.0  # without contact: 0, not -0
+        return float(point[column] or "nan") + 0.0  # without contact: 0, not -0
 
     name = point["point"]
     cells = [
-        name if "=" in name else name.replace("-", " "),
         f"{value('vertical_force_max [N]') / 1e3:.1f} / {value('vertical_force_min [N]') / 1e3:.1f}",
         f"{value('longitudinal_force_max [N]') / 1e3:.1f} / {value('longitudinal_force_min [N]') / 1e3:.1f}",
         f"{value('creepage_steady [-]') * 100:.3f}",
         f"{value('axis_cell_work_range [J]') * 1e3:.1f}",
         f"{(value('axis_von_mises_max [Pa]') - value('axis_von_mises_min [Pa]')) / 1e6:.0f}",
     ]
-    print("| " + " | ".join(cells) + " |")
+    cells = ["–" if "nan" in cell else cell for cell in cells]  # the wheel has not reached the corrugation
+    print("| " + " | ".join([name if "=" in name else name.replace("-", " "), *cells]) + " |")

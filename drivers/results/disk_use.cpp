@@ -19,7 +19,7 @@ constexpr std::int64_t kReportBytes = 1500000;  ///< bytes of report.html and th
 
 std::int64_t file_bytes(const SceneSource& source) {
   std::size_t sum = 0;
-  for (const auto& [name, text] : source.files) sum += text.size();
+  for (const auto& [name, text] : source.files) sum += text->size();
   return static_cast<std::int64_t>(sum);
 }
 

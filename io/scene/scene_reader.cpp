@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -317,8 +318,9 @@ class SceneBuilder {
     try {
       const std::size_t known_problems = problems_.size();
       const auto given = source_.files.find(name);
-      std::string& text = files_[name] = given != source_.files.end() ? given->second : load(name);
-      read(text, name);
+      const auto& text = files_[name] =
+          given != source_.files.end() ? given->second : std::make_shared<const std::string>(load(name));
+      read(*text, name);
       if (problems_.size() > known_problems) bad_.insert(path);
     } catch (const InputError& error) {
       report(place_of(path), path, error.what());
@@ -375,7 +377,7 @@ class SceneBuilder {
   std::set<std::string> bad_;                ///< keys with a problem already
   bool tables_unclear_ = false;              ///< a table's name is wrong: what is missing cannot be told
   std::vector<Problem> problems_;
-  std::map<std::string, std::string> files_;  ///< texts of those that the scene names
+  decltype(SceneSource::files) files_;  ///< texts of those that the scene names
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct SceneSource {
   std::string text;              ///< TOML
   std::filesystem::path folder;  ///< files that the scene names are relative to it
   /// Texts of files that the scene names, by absolute path; they hold in place of what stands on the disk.
-  std::map<std::string, std::string> files = {};
+  /// Copies share them. None is null.
+  std::map<std::string, std::shared_ptr<const std::string>> files = {};
 };
 
 /// Reads the file's text. Links to its folder are resolved: files that the scene names keep their paths when

@@ -224,18 +224,20 @@ Scene resolve(const std::string& name, const Overrides& more) {
   Overrides overrides = base.overrides;
   overrides.insert(overrides.end(), more.begin(), more.end());
   SceneSource source{name, base.text, "/nowhere"};
-  source.files = {{"/nowhere/depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.02\n100 0\n"},
-                  {"/nowhere/other_depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.03\n100 0\n"},
-                  {"/nowhere/supports.txt", "# fastening [-]  shift [mm]  stiffness [-]\n2 20 0.7\n"},
-                  {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
-                  {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"},
-                  {"/nowhere/web.txt",
-                   "# y [mm]  r [mm]\n-40 145\n-30 165\n-30 340\n-40 365\n35 365\n25 340\n25 165\n35 145\n"},
-                  {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
-                  {"/nowhere/head.txt", worn_columns(built_in_rail("CN60").running, -35, 35)}};
+  std::map<std::string, std::string> files = {
+      {"/nowhere/depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.02\n100 0\n"},
+      {"/nowhere/other_depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.03\n100 0\n"},
+      {"/nowhere/supports.txt", "# fastening [-]  shift [mm]  stiffness [-]\n2 20 0.7\n"},
+      {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
+      {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"},
+      {"/nowhere/web.txt",
+       "# y [mm]  r [mm]\n-40 145\n-30 165\n-30 340\n-40 365\n35 365\n25 340\n25 165\n35 145\n"},
+      {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
+      {"/nowhere/head.txt", worn_columns(built_in_rail("CN60").running, -35, 35)}};
   const auto of_body = [](const std::string& text) { return text.starts_with("body."); };
   if (std::any_of(overrides.begin(), overrides.end(), of_body))
-    source.files.insert(body_files().begin(), body_files().end());
+    files.insert(body_files().begin(), body_files().end());
+  for (const auto& [path, text] : files) source.files[path] = std::make_shared<const std::string>(text);
   return resolve_scene(source, overrides).scene;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "drivers/engine/start/step_limit.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "tests/field_differences.hpp"
 
 namespace tread {
 namespace {
@@ -104,7 +106,8 @@ Scene scene_of(const std::string& bodies, std::vector<std::string> overrides, bo
   overrides.insert(overrides.end(), places.begin(), places.end());
   if (!by_hand) overrides.push_back(at("motion.run_up", kRunUp));
   SceneSource source{"run-up", "[scene]\nbased_on = \"highspeed-slab-2014\"\n" + bodies, "/nowhere"};
-  source.files = {{"/nowhere/friction.txt", "# x [mm]  f [-]\n-140 0.3\n100 0.4\n"}};
+  source.files["/nowhere/friction.txt"] =
+      std::make_shared<const std::string>("# x [mm]  f [-]\n-140 0.3\n100 0.4\n");
   return resolve_scene(source, overrides).scene;
 }
 
@@ -138,6 +141,12 @@ Passage roll(const Scene& scene, double dt) {
   return run;
 }
 
+std::vector<double> column(const Passage& run, std::size_t c) {
+  std::vector<double> values;
+  for (const std::vector<double>& row : run.rows) values.push_back(row[c]);
+  return values;
+}
+
 void expect_same_passage(const std::string& bodies, const std::vector<std::string>& overrides) {
   constexpr double kRounding = 1e-6;  // of a column's largest value
   const Passage here = roll(scene_of(bodies, overrides, false), 0);
@@ -148,13 +157,9 @@ void expect_same_passage(const std::string& bodies, const std::vector<std::strin
   ASSERT_EQ(here.rows.size(), there.rows.size());
   for (std::size_t i = 0; i < here.x.size(); ++i) EXPECT_NEAR(here.x[i], there.x[i] + kStart, 1e-9) << i;
   for (std::size_t c = 0; c < here.rows.front().size(); ++c) {
-    double size = 0;
-    double apart = 0;
-    for (std::size_t i = 0; i < here.rows.size(); ++i) {
-      size = std::max(size, std::abs(here.rows[i][c]));
-      apart = std::max(apart, std::abs(here.rows[i][c] - there.rows[i][c]));
-    }
-    EXPECT_LE(apart, kRounding * size) << "column " << c;
+    const std::vector<double> values = column(here, c);
+    EXPECT_LE(samples::difference(column(there, c), values), kRounding * samples::largest(values))
+        << "column " << c;
   }
   EXPECT_GT(here.rows.back()[1], 1e4);
 }

@@ -100,6 +100,19 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   EXPECT_EQ(read_json_lines(runs_ / "dial.jsonl").size(), 4U);
   EXPECT_EQ(number_in(read_json_lines(runs_ / "dial.jsonl")[0], "F_N_error"),
             number_in(rows[0], "F_N_error"));
+
+  // The same runs as points of a study: without a base there are no effects of single settings.
+  ASSERT_TRUE(fs::exists(runs_ / "effects.csv"));
+  const fs::path study =
+      program_.write("study.toml", fmt::format("[study]\nscene = \"{}/scenes/tyre.toml\"\n[grid]\n"
+                                               "scene.element_size = [\"12 mm\", \"10 mm\"]\n",
+                                               TREAD_SOURCE_DIR));
+  ASSERT_EQ(call(fmt::format("dial {} -o {} -t 1 --quiet --set \"motion.duration=1 ms\" --set "
+                             "\"solution_zone.start=0 m\"",
+                             shell_word(study), runs_.string())),
+            0)
+      << errors();
+  EXPECT_FALSE(fs::exists(runs_ / "effects.csv"));
 }
 
 TEST_F(Dial, RefusesBeforeAnythingRuns) {

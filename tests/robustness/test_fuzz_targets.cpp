@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <span>
 #include <string>
@@ -98,7 +99,12 @@ TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
   RunResults results;
   results.samples.resize(2);
   SealedContent content = pack_order(
-      {{"scene.toml", "[scene]\n", ".", {{"/depth.txt", "0 0\n"}}}, {"a=1"}, {"b=2"}, "", "tread run", {}});
+      {{"scene.toml", "[scene]\n", ".", {{"/depth.txt", std::make_shared<const std::string>("0 0\n")}}},
+       {"a=1"},
+       {"b=2"},
+       "",
+       "tread run",
+       {}});
   StateList list;
   results.list_state(list);
   pack(list, "results", content);

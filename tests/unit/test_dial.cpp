@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -122,6 +123,22 @@ TEST(DialMeasures, FLAndCreepageNeedTraction) {
     const FinishedRun run = pulled(program, force);
     for (const std::size_t quantity : {1U, 2U})
       EXPECT_EQ(run_difference(run, run, dial_quantities().at(quantity)).has_value(), force > 0.005 * 90e3);
+  }
+}
+
+/// Brakes turn a wheel back over the stretch that it has passed.
+TEST(DialMeasures, AWheelThatTurnsBackIsJudgedByItsFirstPassage) {
+  const samples::Program one, other;
+  const FinishedRun run = pulled(one, 1000), back = pulled(other, 1000);
+  std::ofstream histories(other.folder / "histories.csv", std::ios::app);
+  for (double x = 2.98; x > 2; x -= 0.01) histories << fmt::format("{},0,0\n", x);
+  histories.close();
+  const DialQuantity& force = dial_quantities().at(1);
+  const auto expected = run_difference(run, run, force);
+  ASSERT_TRUE(expected);
+  for (const auto& found : {run_difference(back, run, force), run_difference(run, back, force)}) {
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->error, expected->error);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "drivers/results/memory_need.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/bar_scene.hpp"
+#include "tests/refusal.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -271,7 +272,11 @@ TEST(Memory, ASampleAStepIsTheMost) {
 
 /// The order and each of three states carry the files that the scene names; so does a state for forks.
 TEST(Disk, FilesOfTheSceneCount) {
-  const std::int64_t files = file_bytes({"scene.toml", "", ".", {{"/a.txt", "12345"}, {"/b.inp", "123"}}});
+  const std::int64_t files = file_bytes({"scene.toml",
+                                         "",
+                                         ".",
+                                         {{"/a.txt", std::make_shared<const std::string>("12345")},
+                                          {"/b.inp", std::make_shared<const std::string>("123")}}});
   EXPECT_EQ(files, 8);
   Scene scene = small_track();
   scene.forks.emplace();
@@ -302,10 +307,10 @@ class RanksOfAMachine final : public Ranks {
   void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
   void post(std::span<const RankSegment> /*sent*/) override {}
   void receive(std::span<const RankSegment> /*received*/) override {}
-  void broadcast(std::span<std::byte> /*bytes*/) override {}
   [[noreturn]] void end_all(int code) override { std::exit(code); }
 
  private:
+  void broadcast_bytes(std::span<std::byte> /*bytes*/) override {}
   void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
   int rank_, count_;
 };
@@ -313,12 +318,9 @@ class RanksOfAMachine final : public Ranks {
 /// Refusal of a mesh of so many nodes; empty: there is none.
 template <class Require>
 std::string refusal(const Require& require, double nodes) {
-  try {
+  return samples::refusal<ResourceError>([&] {
     require(MeshCount{1000, static_cast<std::int64_t>(nodes)}, MeshSizes{});
-  } catch (const ResourceError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 /// Rank 0 alone solves the preload; each rank has all masses.

@@ -77,6 +77,18 @@ TEST_F(MadeUpRun, APatternHasItsShareAndShift) {
   EXPECT_NEAR(peaks.front().shift, 0.4, 2 * kPi / 80);
 }
 
+TEST_F(MadeUpRun, AWheelThatTurnsBackHasThePatternOfItsFirstPassage) {
+  write_histories(wave(0.4), constant(0));
+  std::ofstream histories(program_.folder / "histories.csv", std::ios::app);
+  for (int i = 3049; i > 2000; --i) histories << fmt::format("{},{},0,0\n", 0.1 - 1e-5 * i, 1e-3 * i);
+  histories.close();
+  const FinishedRun d = run(corrugated());
+  const auto pattern = wave_pattern(d, history_over_way(d, "vertical_force", "N"));
+  ASSERT_TRUE(pattern);
+  EXPECT_NEAR(pattern->share, 1, 1e-3);
+  EXPECT_NEAR(pattern->shift, 0.4, 1e-3);
+}
+
 TEST_F(MadeUpRun, CurvesThatDoNotCoverTheStretchHaveNoPattern) {
   write_histories(wave(0), constant(0));
   const FinishedRun d = run(corrugated());

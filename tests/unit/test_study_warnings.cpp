@@ -44,6 +44,21 @@ TEST(StudyCurves, BrakesHaveTheirLimitBelow) {
   EXPECT_EQ(limit.y, (std::vector<double>{-40, -40}));
 }
 
+TEST(StudyCurves, AWheelThatTurnsBackIsDrawnWholeAndItsFirstPassageTabled) {
+  const samples::TemporaryFolder folder;
+  std::ofstream(folder.path / "histories.csv")
+      << "wheel_x [m],vertical_force [N]\n0,1\n0.1,2\n0.2,3\n0.1,9\n-0.1,9\n";
+  FinishedRun run = run_with("a", "{}");
+  run.folder = folder.path;
+  run.scene = samples::tyre_scene();
+  const CurvesSpec spec{
+      .title = "", .panels = {{"Force [N]", {.y = {"vertical_force", "N"}}}}, .whole_way = true};
+  const Figure figure = curves_figure(spec, {run});
+  EXPECT_EQ(figure.panels.front().series.front().x.size(), 5U);
+  EXPECT_EQ(figure.x_range, (Range{-0.1, 0.2}));
+  EXPECT_TRUE(figure_csv(figure).ends_with("\n0,1\n0.1,2\n0.2,3\n")) << figure_csv(figure);
+}
+
 TEST(StudyTrends, AColourAGroupAndAStrokeAResult) {
   const FinishedRun run = run_with("a", R"({"vertical_force_N": {"max": 3, "mean": 2, "min": 1}})");
   const Figure figure = trend_figure("", "", fluctuation_panels(), {{&run, 0, "dry"}, {&run, 0, "wet"}});

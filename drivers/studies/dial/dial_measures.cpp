@@ -77,7 +77,7 @@ RunCurve longitudinal_force() {
 
 /// Returns true if F_L over the evaluated stretch is small against the static F_N. [theory.md, eq. 13a]
 bool rolls_freely(const FinishedRun& run) {
-  const CurvePoints force = read_curve(run, longitudinal_force());
+  const CurvePoints force = first_passage(read_curve(run, longitudinal_force()));
   const Span known = with_room(evaluated_stretch(run.scene, run.corrugation()), force, 0);
   if (known.empty()) return false;
   const double level = quadratic_mean(statistics(values_on(force, known, 0)));
@@ -124,13 +124,13 @@ std::optional<CurveDifference> run_difference(const FinishedRun& run, const Fini
   if (quantity.of_traction && rolls_freely(reference)) return std::nullopt;
   const Scene& scene = reference.scene;
   const bool sine = scene.corrugation && scene.corrugation->kind == "sine";
-  const CurvePoints wanted = read_curve(reference, quantity.curve);
+  const CurvePoints wanted = first_passage(read_curve(reference, quantity.curve));
   const Span stretch = stretch_of(run, reference, quantity);
   const Span known = with_room(stretch, wanted, 0);
   constexpr double kLongest = 20e-3;  // [m]
   const double longest =
       sine ? 0.25 * scene.corrugation->wavelength : std::min(kLongest, 0.1 * (known.last - known.first));
-  return curve_difference(read_curve(run, quantity.curve), wanted, stretch, longest);
+  return curve_difference(first_passage(read_curve(run, quantity.curve)), wanted, stretch, longest);
 }
 
 }  // namespace tread

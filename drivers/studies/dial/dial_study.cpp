@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -142,7 +143,12 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
   write_text_file(folder / "dial.csv", dial_csv(outcome.table));
   write_text_file(folder / "dial.jsonl", dial_lines(outcome.table));
   write_text_file(folder / "results.md", dial_markdown(outcome));
-  if (!outcome.effects.rows.empty()) write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
+  std::error_code ignored;
+  if (outcome.effects.rows.empty())
+    std::filesystem::remove(folder / "effects.csv", ignored);
+  else
+    write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
+  remove_figures(folder / kFigureFolder);
   write_report(folder / "report.html", dial_report(outcome, plan, options.common.origin));
   if (options.common.json)
     fmt::print("{}", dial_json(outcome.table));

@@ -176,7 +176,7 @@ CurvePoints force_over_way(const MultibodyResult& result) {
 }
 
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit) {
-  return read_curve(run, {.y = {column, unit}});
+  return first_passage(read_curve(run, {.y = {column, unit}}));
 }
 CurvePoints history_over_time(const FinishedRun& run, const char* column, const char* unit) {
   return read_curve(run, {.x = {"time", "s"}, .y = {column, unit}});

@@ -48,7 +48,8 @@ double way_without_contact(const FinishedRun& run, const CurvePoints& force);
 /// Largest difference of the runs' F_N from `time` [s] on, over the static load [-].
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time);
 
-/// Steady creepage of the summary [%]; nullopt if the torque still rises or has just risen over its stretch.
+/// Steady creepage of the summary [%]; nullopt if the torque still changes or has just changed over its
+/// stretch.
 std::optional<double> steady_creepage(const FinishedRun& run);
 
 /// Largest value of the column of creepages over the evaluated stretch, over steady_creepage() [-]; nullopt
@@ -58,7 +59,7 @@ std::optional<double> creepage_ratio(const FinishedRun& run, const char* column)
 /// F_N of the multi-body approach over the way, SI.
 CurvePoints force_over_way(const MultibodyResult& result);
 
-/// Curves of the histories and of the axis, SI.
+/// Curves of the histories and of the axis, SI; over the way, the first_passage().
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit);
 CurvePoints history_over_time(const FinishedRun& run, const char* column, const char* unit);
 CurvePoints along_axis(const FinishedRun& run, const char* column, const char* unit);

@@ -110,6 +110,16 @@ const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::str
   return found == runs.end() ? nullptr : &*found;
 }
 
+CurvePoints first_passage(const CurvePoints& points) {
+  CurvePoints first;
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    if (first.x.empty() || points.x[i] > first.x.back()) {
+      first.x.push_back(points.x[i]);
+      first.y.push_back(points.y[i]);
+    }
+  return first;
+}
+
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
   std::vector<std::vector<double>> columns;
   try {

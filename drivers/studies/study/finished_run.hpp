@@ -67,8 +67,12 @@ struct RunCurve {
 };
 
 struct CurvePoints {
-  std::vector<double> x, y;  ///< points by increasing x
+  std::vector<double> x, y;  ///< points in the order of the file
 };
+
+/// The points by increasing x: without those that are not beyond all before. Of a wheel that turns back, its
+/// first passage over every place.
+CurvePoints first_passage(const CurvePoints& points);
 
 /// Both columns, scaled. Throws InputError if the file cannot be read.
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve);

@@ -206,11 +206,7 @@ bool was_stopped(const fs::path& folder, const PointProcess& process) {
 void note_end(const fs::path& folder, const PointProcess& process) {
   const ProcessEnd& end = process.end;
   const bool done = end.signal == 0 && end.code == static_cast<int>(ExitCode::done);
-  if (done || was_stopped(folder, process)) {
-    std::error_code ignored;
-    fs::remove(folder / kFailure, ignored);
-    return;
-  }
+  if (done || was_stopped(folder, process)) return forget_failure(folder);
   write_failure(folder, end, reason(folder, process));
 }
 

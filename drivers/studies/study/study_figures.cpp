@@ -87,16 +87,16 @@ Stroke stroke_of(const std::string& label) {
   return label.find("smallest") != std::string::npos ? Stroke::dotted : Stroke::dashed;
 }
 
-std::vector<double> abscissae(const std::vector<const Series*>& all, const Figure& figure) {
+std::vector<double> abscissae(const std::vector<CurvePoints>& all, const Figure& figure) {
   bool same = true;
   Range range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Series* series : all) {
-    same = same && series->x == all.front()->x;
-    if (!series->x.empty()) range = united(range, {series->x.front(), series->x.back()});
+  for (const CurvePoints& curve : all) {
+    same = same && curve.x == all.front().x;
+    if (!curve.x.empty()) range = united(range, {curve.x.front(), curve.x.back()});
   }
   constexpr int kMostRows = 1000;
   if (all.empty() || range[0] > range[1]) return {};
-  if (same && all.front()->x.size() <= static_cast<std::size_t>(kMostRows)) return all.front()->x;
+  if (same && all.front().x.size() <= static_cast<std::size_t>(kMostRows)) return all.front().x;
   if (figure.x_range)
     range = {std::max(range[0], (*figure.x_range)[0]), std::min(range[1], (*figure.x_range)[1])};
   if (!(range[1] > range[0])) return {range[0]};
@@ -126,7 +126,8 @@ Figure curves_figure(const CurvesSpec& spec, const std::vector<FinishedRun>& all
     }
     for (const Series& curve : curves)
       if (!curve.x.empty()) {
-        const Range range = {curve.x.front(), curve.x.back()};
+        const auto ends = std::minmax_element(curve.x.begin(), curve.x.end());
+        const Range range = {*ends.first, *ends.second};
         way = way ? united(*way, range) : range;
       }
     for (std::size_t i = 0; wanted.limit && i < runs.size(); ++i) {
@@ -189,18 +190,18 @@ std::vector<TrendPanel> fluctuation_panels() {
 }
 
 std::string figure_csv(const Figure& figure) {
-  std::vector<const Series*> all;
+  std::vector<CurvePoints> all;
   std::string text = csv_cell(figure.x_label);
   for (const Panel& panel : figure.panels)
     for (const Series& series : panel.series) {
-      all.push_back(&series);
+      all.push_back(first_passage({series.x, series.y}));
       text += fmt::format(",{}", csv_cell(series.label + ": " + panel.y_label));
     }
   text += '\n';
   for (const double x : abscissae(all, figure)) {
     text += fmt::format("{:.6g}", x);
-    for (const Series* series : all) {
-      const double value = value_at(series->x, series->y, x);
+    for (const CurvePoints& curve : all) {
+      const double value = value_at(curve.x, curve.y, x);
       text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",";
     }
     text += '\n';

@@ -63,8 +63,8 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
 /// Forces, Von Mises stress and frictional work with their fluctuation over the evaluated stretch.
 std::vector<TrendPanel> fluctuation_panels();
 
-/// The figure's curves as columns over one abscissa. If the curves have different abscissae, at most 1000
-/// places are written, with values interpolated between samples.
+/// The figure's curves, the first_passage() of each, as columns over one abscissa. If the curves have
+/// different abscissae, at most 1000 places are written, with values interpolated between samples.
 std::string figure_csv(const Figure& figure);
 
 }  // namespace tread

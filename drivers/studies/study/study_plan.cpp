@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -90,6 +91,20 @@ PlannedPoint planned(const Study& study, const StudyPoint& point, const std::fil
   for (const StudySetting& s : point.varied) p.overrides.push_back(s.as_override());
   p.folder = folder / point.name;
   return p;
+}
+
+/// Meshes of the bodies of a study by all that they are read with.
+using BodyMeshes = std::map<std::tuple<std::string, std::string, std::string, double, double, double>,
+                            std::shared_ptr<const HexMesh>>;
+
+/// Lets the scene's bodies hold the meshes of earlier points where they are the same.
+void share_meshes(Scene& scene, BodyMeshes& known) {
+  for (auto& [name, body] : scene.bodies)
+    body.mesh =
+        known
+            .try_emplace({body.file, body.unit, body.part, body.origin_x, body.origin_y, body.origin_z},
+                         body.mesh)
+            .first->second;
 }
 
 void refuse_doubles(const StudyPlan& plan, PointProblems& problems) {
@@ -231,13 +246,16 @@ StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
   plan.study = study;
   plan.folder = folder;
   PointProblems problems(study);
-  const SceneSource source = study.scene_text.empty()
-                                 ? load_scene_source(study.scene)
-                                 : SceneSource{study.scene.string(), study.scene_text, folder};
+  SceneSource source = study.scene_text.empty() ? load_scene_source(study.scene)
+                                                : SceneSource{study.scene.string(), study.scene_text, folder};
+  BodyMeshes meshes;
   for (const StudyPoint& point : study.points) plan.points.push_back(planned(study, point, folder));
   for (PlannedPoint& one : plan.points)
     try_point(one, study, problems, [&](PlannedPoint& point) {
       point.resolved = resolve_scene(source, point.overrides);
+      // The points share files, which may be larger than all else that the study keeps.
+      source.files.insert(point.resolved.source.files.begin(), point.resolved.source.files.end());
+      share_meshes(point.resolved.scene, meshes);
       point.content = scene_content(point.resolved);
     });
   problems.throw_if_any();

@@ -114,7 +114,7 @@ std::vector<FinishedRun> finished_runs(const StudyPlan& plan) {
 }
 
 std::string value_text(const PlannedPoint& point, const std::string& path) {
-  if (const auto number = number_of(point, path)) return fmt::format("{:.6g}", *number);
+  if (const auto number = number_of(point, path)) return fmt::format("{:.12g}", *number);
   for (const Entry& entry : point.resolved.entries)
     if (entry.path == path) return entry.shown;
   return "absent";

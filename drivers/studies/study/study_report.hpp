@@ -13,7 +13,8 @@ namespace tread {
 /// Runs of the points that are done, in their order. InputError where a summary does not read.
 std::vector<FinishedRun> finished_runs(const StudyPlan& plan);
 
-/// The key's value in a point's scene in the key's unit of documentation, such as "300"; a text unchanged.
+/// The key's value in a point's scene in the key's unit of documentation, such as "300", with twelve digits:
+/// they tell values apart and hide the rounding of units. A text unchanged.
 std::string value_text(const PlannedPoint& point, const std::string& key);
 
 /// Keys that any point varies, in order of appearance.
