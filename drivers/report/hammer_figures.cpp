@@ -9,6 +9,9 @@
 
 namespace tread {
 
+namespace {
+
+/// Force and displacement of the struck point against time.
 Figure blow_figure(const RunResults& r) {
   Series force{"force of the hammer", {}, {}, Stroke::solid};
   Series displacement{"struck point, downwards since the start", {}, {}, Stroke::solid};
@@ -27,6 +30,7 @@ Figure blow_figure(const RunResults& r) {
   return figure;
 }
 
+/// Amplitude of the struck point's receptance.
 Figure receptance_figure(const Scene& scene, const RunResults& r) {
   constexpr int kPoints = 400;
   // A half sine of duration T has lost nine tenths of its spectrum at 1.2 / T; a record of length D resolves
@@ -59,6 +63,14 @@ Figure receptance_figure(const Scene& scene, const RunResults& r) {
       "part "
       "of it.";
   return figure;
+}
+
+}  // namespace
+
+Chapter hammer_chapter(const Model& model, const RunResults& r) {
+  Chapter chapter{"Hammer", {blow_figure(r)}};
+  if (over_time(model)) chapter.blocks.emplace_back(receptance_figure(model.scene, r));
+  return chapter;
 }
 
 }  // namespace tread

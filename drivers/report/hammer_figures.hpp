@@ -6,10 +6,8 @@
 
 namespace tread {
 
-/// Force and displacement of the struck point against time.
-Figure blow_figure(const RunResults& results);
-
-/// Amplitude of the struck point's receptance, as far as the blow reaches.
-Figure receptance_figure(const Scene& scene, const RunResults& results);
+/// Force and displacement of the struck point, and its receptance as far as the blow reaches where no wheel
+/// rolls over it.
+Chapter hammer_chapter(const Model& model, const RunResults& results);
 
 }  // namespace tread

@@ -45,10 +45,13 @@ struct Run {
   const Scene& scene() const { return model.scene; }
   bool rolled() const { return model.contact && !results.samples.empty(); }
   bool corrugated() const { return model.contact && !model.contact->corrugation().smooth(); }
-  /// Returns true if the wheel has come to the stretch that the scene is about.
+  /// Returns true if the wheel has come to the stretch that the scene is about, and not from behind it.
   bool in_sight() const {
-    const double first = corrugated() ? model.contact->corrugation().first() : scene().zone_start;
-    return rolled() && results.reached > first;
+    if (!rolled()) return false;
+    const Corrugation& corrugation = model.contact->corrugation();
+    const Span stretch = corrugated() ? Span{corrugation.first(), corrugation.last()}
+                                      : Span{scene().zone_start, scene().zone_start + scene().zone_length};
+    return results.reached > stretch.first && scene().start_x() < stretch.last;
   }
   /// Returns true if the wheel has come to the corrugation.
   bool on_corrugation() const { return corrugated() && in_sight(); }
@@ -122,7 +125,7 @@ Chapter result_chapter(const Run& run) {
                         stretch(r.evaluated_first, r.evaluated_last), slip_sentence(run),
                         stretch(r.steady_first, r.steady_last));
     if (r.driven && !torque_has_settled(run.scene(), r))
-      text += " The torque still rises or has just risen there: they are not steady yet.";
+      text += " The torque still changes or has just changed there: they are not steady yet.";
     chapter.blocks.emplace_back(Text{text});
   } else if (run.model.contact) {
     chapter.blocks.emplace_back(static_figures(run));
@@ -376,8 +379,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   if (Chapter patch = patch_chapter(run); !patch.blocks.empty()) report.chapters.push_back(std::move(patch));
   if (Chapter measured = measurement_chapter(model, results); !measured.blocks.empty())
     report.chapters.push_back(std::move(measured));
-  if (model.hammer && !results.samples.empty())
-    report.chapters.push_back({"Hammer", {blow_figure(results), receptance_figure(model.scene, results)}});
+  if (model.hammer && !results.samples.empty()) report.chapters.push_back(hammer_chapter(model, results));
   report.chapters.push_back(energy_chapter(run));
   if (model.contact || results.preload.newton_iterations > 0) report.chapters.push_back(preload_chapter(run));
   report.chapters.push_back(model_chapter(run));

@@ -149,6 +149,13 @@ std::string hammer_warning(const Model& model) {
       1e3 * blow, blow / interval, kSamplesOfBlow, 1e3 * blow / (kSamplesOfBlow + 1));
 }
 
+/// Sentence where the wheel rolls during the blow.
+std::string blow_and_passage_warning(const Model& model) {
+  if (!model.scene.hammer || !model.contact || stands(model.scene)) return "";
+  return "[hammer]: hammer_displacement holds the wheel's passage beside the blow, so that the report shows "
+         "no receptance; subtract that of a second run with hammer.force = \"0 kN\"";
+}
+
 /// Sentence where the histories of stress have no column: no element's middle lies as high.
 std::string stress_depth_warning(const Model& model) {
   const std::optional<double>& deepest = model.scene.output.stress_depth;
@@ -245,7 +252,7 @@ std::optional<double> too_few_elements_across_patch(const Model& model) {
 
 std::vector<std::string> resolution_warnings(const Model& model) {
   std::vector<std::string> warnings = {history_warning(model.scene), hammer_warning(model),
-                                       slab_warning(model.scene)};
+                                       blow_and_passage_warning(model), slab_warning(model.scene)};
   if (model.contact) add_contact_warnings(model, warnings);
   std::erase(warnings, "");
   return warnings;

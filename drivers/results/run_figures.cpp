@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "drivers/engine/model/evaluated_stretch.hpp"
@@ -13,10 +14,11 @@ namespace tread {
 
 namespace {
 
+constexpr double kRounding = 1e-9;  ///< of places [m]
+
 /// Returns a test for samples with the wheel between two places [m]. The first sample lies at the start but
 /// for rounding.
 auto between(double first, double last) {
-  constexpr double kRounding = 1e-9;  // [m]
   return [first, last](const Sample& s) {
     return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
   };
@@ -68,17 +70,30 @@ double traction_between(std::span<const Sample> samples, double first, double la
   return vertical > 0 ? mean([](const Sample& s) { return s.longitudinal_force; }) / vertical : 0.0;
 }
 
-/// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
-/// corrugation.
+/// Traction of the stretch's second half less that of its first; nothing where a half holds no sample.
+std::optional<double> traction_drift(const std::vector<Sample>& samples, double first, double last) {
+  const double middle = 0.5 * (first + last);
+  if (std::ranges::none_of(samples, between(first, middle)) ||
+      std::ranges::none_of(samples, between(middle, last)))
+    return std::nullopt;
+  return traction_between(samples, middle, last) - traction_between(samples, first, middle);
+}
+
+/// Length of the steady stretch: a fastening span [m].
+double steady_length(const Scene& scene) {
+  return scene.fastenings ? scene.fastenings->spacing : 0.1;
+}
+
+/// Fills the means over a stretch that ends with the solution zone, or ahead of the corrugation.
 void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
   const Scene& scene = model.scene;
   const Corrugation& corrugation = model.contact->corrugation();
-  const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
+  constexpr double kAhead = 0.02;  // of the wheel's axis, where the patch does not meet the corrugation [m]
   const double end = std::min(
-      way.last, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
-  const Span stretch = stands(scene) ? way : Span{std::max(scene.start_x(), end - span), end};
-  r.steady_first = stretch.first;
-  r.steady_last = stretch.last;
+      way.last, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - kAhead);
+  const Span span = stands(scene) ? way : Span{std::max(scene.start_x(), end - steady_length(scene)), end};
+  r.steady_first = span.first;
+  r.steady_last = span.last;
   const auto steady = between(r.steady_first, r.steady_last);
   const auto mean = [&](auto value) { return statistics(r.samples, steady, value).mean; };
   r.steady_samples = std::count_if(r.samples.begin(), r.samples.end(), steady);
@@ -86,9 +101,7 @@ void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
     r.steady_begin = first->time;
   r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
   r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
-  const double middle = 0.5 * (r.steady_first + r.steady_last);
-  r.traction_drift = traction_between(r.samples, middle, r.steady_last) -
-                     traction_between(r.samples, r.steady_first, middle);
+  r.traction_drift = traction_drift(r.samples, r.steady_first, r.steady_last);
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
   r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last, model.wheel_radius());
   r.steady_slip_share = full_slip_share(r.samples, steady);
@@ -133,13 +146,19 @@ bool traction_slides(const RunResults& r) {
 }
 
 bool traction_is_steady(const Scene& scene, const RunResults& r) {
-  if (r.steady_samples == 0 || traction_slides(r) || (r.driven && !torque_has_settled(scene, r)))
-    return false;
-  return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
+  if (!r.traction_drift || traction_slides(r) || (r.driven && !torque_has_settled(scene, r))) return false;
+  return std::abs(*r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
+}
+
+std::optional<double> settling_place(const Scene& scene, const RunResults& r) {
+  if (!r.driven || scene.motion->ramp > 0 || r.preload.traction != 0) return std::nullopt;
+  return scene.start_x() + steady_length(scene);
 }
 
 bool torque_has_settled(const Scene& scene, const RunResults& r) {
-  if (stands(scene)) return !r.driven || scene.motion->ramp <= 0;
+  if (stands(scene)) return !r.driven;
+  if (const std::optional<double> place = settling_place(scene, r))
+    return r.steady_first >= *place - kRounding;
   return r.steady_begin >= settled_torque_time(scene);
 }
 

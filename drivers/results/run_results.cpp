@@ -23,10 +23,6 @@ struct HistoryColumn {
   std::function<double(const Sample&)> value;
 };
 
-double traction(const Sample& s) {
-  return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
-}
-
 const std::vector<HistoryColumn>& wheel_columns() {
   static const std::vector<HistoryColumn> columns = {
       {{"wheel_x", "m", "position of the wheel's axis along the rail"},
@@ -37,7 +33,7 @@ const std::vector<HistoryColumn>& wheel_columns() {
        [](const Sample& s) { return s.longitudinal_force; }},
       {{"lateral_force", "N", "contact force on the wheel, to the field side"},
        [](const Sample& s) { return s.lateral_force; }},
-      {{"traction_coefficient", "-", "F_L / F_N"}, traction},
+      {{"traction_coefficient", "-", "F_L / F_N"}, &Sample::traction},
       {{"patch_area", "m2", "area in contact"}, [](const Sample& s) { return s.patch_area; }},
       {{"slip_area", "m2", "part of the patch that slips"}, [](const Sample& s) { return s.slip_area; }},
       {{"max_pressure", "Pa", "largest contact pressure at a rail node"},
@@ -207,7 +203,7 @@ void add_rolling_contact(const Model& model, const RunResults& r, Json& json) {
   json["steady_x_m"] = {r.steady_first, r.steady_last};
   json["vertical_force_steady_N"] = r.vertical_force_steady;
   json["traction_coefficient"] = r.traction_coefficient;
-  json["traction_drift"] = r.traction_drift;
+  json["traction_drift"] = number_or_null(r.traction_drift);
   json["traction_steady"] = traction_is_steady(model.scene, r);
   json["creepage_percent"] = 100 * r.creepage;
   json["creepage_of_frictional_work_percent"] = percent_or_null(r.creepage_of_work);

@@ -75,13 +75,13 @@ struct RunResults {
     list.add("preload_cached", preload_cached);
   }
 
-  Statistics vertical_force;      ///< over evaluated() [N]
-  ForceSpectrum spectrum;         ///< of F_N there
-  Statistics longitudinal_force;  ///< [N]
-  double traction_coefficient =
-      0;                      ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
-  double traction_drift = 0;  ///< of the means over its second half and its first [-]
-  double creepage = 0;        ///< mean of 28 points of the tread there [-]
+  Statistics vertical_force;        ///< over evaluated() [N]
+  ForceSpectrum spectrum;           ///< of F_N there
+  Statistics longitudinal_force;    ///< [N]
+  double traction_coefficient = 0;  ///< mean F_L / mean F_N over the steady stretch [-]
+  /// Of its second half less that of its first [-]; nothing where a half holds no sample.
+  std::optional<double> traction_drift;
+  double creepage = 0;                     ///< mean of 28 points of the tread there [-]
   std::optional<double> creepage_of_work;  ///< of the frictional work there, if F_L counts [-]
   double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
   double full_slip_share = 0;    ///< of the samples in contact there, those whose whole patch slides [-]
@@ -119,8 +119,12 @@ std::optional<double> creepage_of_work(const std::vector<Sample>& samples, doubl
 /// more than kSmallTraction.
 bool traction_slides(const RunResults& results);
 
+/// Place from which a torque without a ramp counts as settled that the static state does not carry: as far
+/// from the start as the steady stretch is long [m]. Nothing for other torques.
+std::optional<double> settling_place(const Scene& scene, const RunResults& results);
+
 /// Returns true if the torque of a scene with [motion] no longer rises, nor has just risen, at the first
-/// sample of the steady stretch. That of a wheel that stands is the whole run.
+/// sample of the steady stretch. That of a wheel that stands is the whole run, which holds the rise.
 bool torque_has_settled(const Scene& scene, const RunResults& results);
 
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 
 #include "drivers/engine/model/evaluated_stretch.hpp"
+#include "drivers/engine/model/surfaces.hpp"
 #include "drivers/engine/start/traction.hpp"
 #include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
@@ -83,25 +85,60 @@ std::string balance_warning(const Model& model, const RunResults& r) {
 
 /// Key that moves the steady stretch on, "a later solution_zone.start": it ends with the run, ahead of the
 /// corrugation or with the zone.
-const char* later_stretch(const Model& model, const RunResults& r) {
+std::string later_stretch(const Model& model, const RunResults& r) {
   if (r.reached <= r.steady_last) return "a longer motion.duration";
   return model.contact->corrugation().smooth() ? "a later solution_zone.start" : "a later corrugation.start";
 }
 
-/// Sentence where the torque rises along the steady stretch.
+/// Place of the wheel from which a torque that grows counts as settled [m]; nothing after the run's end.
+std::optional<double> settled_torque_place(const Scene& scene, const RunResults& r) {
+  const double time = settled_torque_time(scene);
+  const auto settled = std::ranges::find_if(r.samples, [&](const Sample& s) { return s.time >= time; });
+  return settled == r.samples.end() ? std::nullopt : std::optional(settled->wheel_x);
+}
+
+/// Sentence where the torque changes along the steady stretch.
 std::string torque_warning(const Model& model, const RunResults& r) {
-  const std::string rises = fmt::format(
-      "the torque of motion.traction still rises or has just risen on the steady stretch (x = {:.3f} to "
+  const Scene& scene = model.scene;
+  const std::string changes = fmt::format(
+      "the torque of motion.traction still changes or has just changed on the steady stretch (x = {:.3f} to "
       "{:.3f} m): traction and creepage are not steady there",
       r.steady_first, r.steady_last);
-  if (stands(model.scene)) return rises + "; motion.traction.ramp = 0 lets it act from the start on";
-  const double time = settled_torque_time(model.scene);
-  const auto settled = std::ranges::find_if(r.samples, [&](const Sample& s) { return s.time >= time; });
-  const std::string place =
-      settled == r.samples.end() ? "after the run's end" : fmt::format("x = {:.3f} m", settled->wheel_x);
+  if (stands(scene))
+    return fmt::format(
+        "{}; the wheel stands, and its static state is without the torque: read the last samples of the "
+        "histories in place of the means",
+        changes);
+  if (const std::optional<double> place = settling_place(scene, r))
+    return fmt::format(
+        "{}; motion.traction.ramp = 0 lets it act at once on a static state without it, and it counts as "
+        "settled from x = {:.3f} m on: {} gives it the way",
+        changes, *place, later_stretch(model, r));
+  const double time = settled_torque_time(scene);
+  const std::optional<double> place = settled_torque_place(scene, r);
   return fmt::format(
-      "{}; it counts as settled from {:.4g} ms on, {}: a smaller motion.traction.ramp or {} gives it the way",
-      rises, 1e3 * time, place, later_stretch(model, r));
+      "{}; it counts as settled from {:.4g} ms on, {}: {} or {} gives it the way", changes, 1e3 * time,
+      place ? fmt::format("x = {:.3f} m", *place) : "after the run's end",
+      scene.motion->reversals > 0 ? "fewer motion.traction.reversals" : "a smaller motion.traction.ramp",
+      later_stretch(model, r));
+}
+
+/// Advice where the traction changes along the steady stretch, by the shapes and the torque that the wheel
+/// meets there or within its length ahead of it.
+std::string steadiness_advice(const Model& model, const RunResults& r) {
+  const Span near{std::max(model.scene.start_x(), 2 * r.steady_first - r.steady_last), r.steady_last};
+  std::vector<std::string> shapes;
+  for (const auto& [name, spec] : model.scene.surfaces)
+    if (!places_of(model.scene, spec, near).empty()) shapes.push_back("surface." + name);
+  const std::optional<double> place = settled_torque_place(model.scene, r);
+  const bool risen = model.scene.motion->ramp > 0 && place && *place >= near.first && *place <= near.last;
+  const std::string way = fmt::format(
+      "{}{} gives it the way", risen ? "a smaller motion.traction.ramp or " : "", later_stretch(model, r));
+  if (shapes.empty()) return way;
+  return fmt::format(
+      "the wheel meets {} there or shortly before, and the forces follow: a run without it shows the "
+      "traction alone{}{}",
+      fmt::join(shapes, ", "), risen ? "; " : "", risen ? way : "");
 }
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
@@ -113,12 +150,13 @@ std::string steadiness_warning(const Model& model, const RunResults& r) {
         "stop",
         100 * r.steady_slip_share, r.steady_first, r.steady_last);
   if (!torque_has_settled(model.scene, r)) return torque_warning(model, r);
-  const double half = 0.5 * r.traction_drift;
+  if (!r.traction_drift) return "";  // empty_half_warning()
+  const double half = 0.5 * *r.traction_drift;
   return fmt::format(
       "F_L / F_N goes from {:.4f} to {:.4f} along the steady stretch (x = {:.3f} to {:.3f} m): traction and "
-      "creepage are not steady there; a smaller motion.traction.ramp or {} gives it the way",
+      "creepage are not steady there; {}",
       r.traction_coefficient - half, r.traction_coefficient + half, r.steady_first, r.steady_last,
-      later_stretch(model, r));
+      steadiness_advice(model, r));
 }
 
 /// Sentence where no sample lies in the stretch that the summary evaluates.
@@ -139,6 +177,15 @@ std::string empty_steady_warning(const RunResults& r) {
       "no results; a later corrugation.start or solution_zone.start, or a longer motion.duration, gives it "
       "the way",
       r.steady_last);
+}
+
+/// Sentence where one half of the steady stretch holds no sample.
+std::string empty_half_warning(const RunResults& r) {
+  if (r.steady_samples == 0 || r.traction_drift) return "";
+  return fmt::format(
+      "one half of the steady stretch, x = {:.6g} to {:.6g} m, holds no sample: traction_drift is null and "
+      "traction_steady false in the summary; a shorter output.history_interval fills both halves",
+      r.steady_first, r.steady_last);
 }
 
 /// Sentence where the interval of samples changes along the evaluated stretch.
@@ -166,6 +213,7 @@ void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<s
     warnings.push_back(empty_warning(r));
     warnings.push_back(interval_warning(r));
     warnings.push_back(empty_steady_warning(r));
+    warnings.push_back(empty_half_warning(r));
     warnings.push_back(steadiness_warning(model, r));
   }
   warnings.push_back(balance_warning(model, r));

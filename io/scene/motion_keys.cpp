@@ -26,8 +26,8 @@ void add_motion(Keys& keys) {
   keys.push_back(rolling(quantity("motion.traction.ramp", {Effect::motion},
                                   at(&Scene::motion, &MotionSpec::ramp), kTime, "ms", from(0, 100),
                                   "Time T1 in which the torque grows from zero; 0: the wheel has long been "
-                                  "rolling under it, as the static state has, too; a guided bore gets it at "
-                                  "once")));
+                                  "rolling under it, as the static state has; a rigid start, a guided bore "
+                                  "and a wheel that stands get it at once")));
   keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
                                 at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
                                 "Growth and reversal of the torque: linear, or as half a cosine")));

@@ -58,8 +58,8 @@ void add_surface(Keys& keys, const std::string& name) {
                "Profile: two columns, x and depth positive into the body, after a line such as `# x [m]  d "
                "[mm]`, on a wheel also `# angle [deg]  d [um]`; map: three columns, `# x [mm]  y [mm]  d "
                "[um]`, each x with each y once, or HDF5 with x, y and depth (a row for each y), each with an "
-               "attribute `unit`. Beyond the "
-               "file the depth stays; around a wheel it closes"))));
+               "attribute `unit`. Beyond the file the depth stays; around a wheel it closes, and x or angle "
+               "grows in the order in which places meet the rail, against the wheel's own angle"))));
 }
 
 }  // namespace tread::keys

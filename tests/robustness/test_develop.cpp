@@ -202,6 +202,23 @@ TEST_F(Develop, KeepsWhatItBeganWith) {
   EXPECT_TRUE(has(content_of(folder_ / "passage-0002/summary.json"), "emulated"));
 }
 
+TEST_F(Develop, ALauncherStartsThePassages) {
+  expect_refused(kCorrugation + kWear, "--launcher: there is no program 'no-such-program' in PATH",
+                 "--launcher no-such-program");
+  const fs::path launcher = root_ / "launcher";
+  std::ofstream(launcher) << "#!/bin/sh\nshift\necho \"$@\" >>" << (root_ / "calls").string()
+                          << "\nexec \"$@\"\n";
+  fs::permissions(launcher, fs::perms::owner_all);
+  const std::string stopped = "[stop]\nwall_time = \"1 ms\"\n";
+  EXPECT_EQ(call(develop(folder_, 1, kCorrugation + kWear + stopped,
+                         fmt::format("--launcher \"{} -N1\"", launcher.string()))),
+            75)
+      << errors();
+  const std::string calls = content_of(root_ / "calls");
+  EXPECT_TRUE(has(calls, "tread run ") && has(calls, "/passage-0000")) << calls;
+  EXPECT_FALSE(has(calls, " -t ")) << calls;
+}
+
 TEST_F(Develop, AStoppedPassageIsNoFailure) {
   EXPECT_EQ(call(develop(folder_, 1, kCorrugation + kWear + "[stop]\nwall_time = \"1 ms\"\n")), 75);
   EXPECT_TRUE(has(errors(), "nothing is lost")) << errors();

@@ -137,6 +137,12 @@ TEST(HammerWarning, IsOfBlowsThatAreNotResolved) {
   EXPECT_TRUE(any_has(blow({"hammer.duration=1 us"}), "neither steps nor elements resolve it"));
   EXPECT_TRUE(any_has(blow({"motion.duration=0.1 ms"}), "is cut off at the run's end"));
   EXPECT_TRUE(any_has(blow({"motion.duration=0.1 ms"}), "fewer than 10 samples"));
+  const auto beside_a_wheel = [](const char* speed) {
+    return any_has(of_tyre({"hammer.force=1 kN", "hammer.duration=0.2 ms", speed}),
+                   "holds the wheel's passage beside the blow");
+  };
+  EXPECT_TRUE(beside_a_wheel("motion.speed=300 km/h"));
+  EXPECT_FALSE(beside_a_wheel("motion.speed=0 km/h"));
 }
 
 /// A map of 50 mm by 10 mm that is 10 um deep all over.

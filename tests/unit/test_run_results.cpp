@@ -14,6 +14,7 @@
 #include "drivers/engine/model/model.hpp"
 #include "drivers/report/energy_tables.hpp"
 #include "drivers/report/figure_parts.hpp"
+#include "drivers/report/hammer_figures.hpp"
 #include "drivers/report/measurement_figures.hpp"
 #include "drivers/report/report_figures.hpp"
 #include "drivers/report/surface_figures.hpp"
@@ -93,6 +94,36 @@ TEST(Traction, IsSteadyIfItsHalvesAgree) {
   EXPECT_FALSE(steady()) << "the torque has just risen";
   results.steady_begin = 1.6e-3;
   EXPECT_TRUE(steady());
+}
+
+TEST(Traction, IsNotSteadyUnderATorqueThatTurns) {
+  const Scene scene = samples::tyre_scene(
+      {"motion.traction.torque=6 kN m", "motion.traction.ramp=1 ms", "motion.traction.reversals=3"});
+  RunResults results;
+  results.steady_samples = 1;
+  results.traction_drift = 0;
+  results.driven = true;
+  results.steady_begin = 7.4e-3;
+  EXPECT_FALSE(traction_is_steady(scene, results));
+  results.steady_begin = 7.6e-3;
+  EXPECT_TRUE(traction_is_steady(scene, results));
+}
+
+/// A rigid start and a guided bore get it on a state without it.
+TEST(Traction, WithoutARampIsNotSteadyOnAStateWithoutIt) {
+  const Scene scene = samples::tyre_scene({"motion.traction.torque=6 kN m", "motion.traction.ramp=0 ms"});
+  RunResults results;
+  results.steady_samples = 1;
+  results.traction_drift = 0;
+  results.driven = true;
+  results.steady_first = 0.05;
+  results.steady_last = 0.15;
+  EXPECT_FALSE(traction_is_steady(scene, results));
+  results.preload.traction = 0.16;
+  EXPECT_TRUE(traction_is_steady(scene, results));
+  results.preload.traction = 0;
+  results.steady_first = 0.11;
+  EXPECT_TRUE(traction_is_steady(scene, results)) << "the wheel has rolled as far as the stretch is long";
 }
 
 constexpr double kWay = 1e-3;             ///< between samples [m]
@@ -205,12 +236,42 @@ TEST(Evaluate, AWheelThatStandsCountsAsAWhole) {
   EXPECT_EQ(r.evaluated_samples, 100);
   EXPECT_EQ(r.steady_samples, 100);
   EXPECT_FALSE(r.spectrum.square.empty());
-  EXPECT_TRUE(torque_has_settled(model.scene, r));
+  EXPECT_FALSE(torque_has_settled(model.scene, r)) << "it acts on a state without it";
+  const std::vector<std::string> warnings = run_warnings(model, r);
+  const auto says = [&](const char* part) {
+    return std::ranges::any_of(
+        warnings, [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("the wheel stands, and its static state is without the torque: read the last samples"));
+  EXPECT_FALSE(says("motion.traction.ramp = 0"));
   Scene ramped = model.scene;
   ramped.motion->ramp = 1e-4;
   EXPECT_FALSE(torque_has_settled(ramped, r));
   r.driven = false;
   EXPECT_TRUE(torque_has_settled(ramped, r));
+}
+
+TEST(Evaluate, AHalfWithoutSamplesHasNoDrift) {
+  const Model model = zoned_model();
+  RunResults r;
+  r.dt = 1e-6;
+  for (const int i : {0, 60, 70, 200}) r.samples.push_back(sample_at(i, i));
+  evaluate(model, r);
+  EXPECT_EQ(r.steady_samples, 2);
+  EXPECT_FALSE(r.traction_drift);
+  EXPECT_FALSE(traction_is_steady(model.scene, r));
+  EXPECT_NE(summary_json(model, {}, r).find("\"traction_drift\": null"), std::string::npos);
+  const auto names = [&] {
+    return std::ranges::any_of(run_warnings(model, r), [](const std::string& warning) {
+      return warning.find("holds no sample: traction_drift is null") != std::string::npos &&
+             warning.find("output.history_interval") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(names());
+  r.samples.insert(r.samples.begin() + 3, sample_at(120, 120));
+  evaluate(model, r);
+  EXPECT_TRUE(r.traction_drift);
+  EXPECT_FALSE(names());
 }
 
 TEST(Steps, TooManyToCountAreRefused) {
@@ -304,6 +365,46 @@ TEST(Warnings, ATractionThatIsNotSteadyNamesTheKeyThatHelps) {
     r.reached = 0.25;
     EXPECT_TRUE(says(rough, std::string(text) + "a longer motion.duration gives")) << first;
   }
+}
+
+/// The torque counts as settled at x = 0.125 m; a weld lies from 0.09 to 0.11 m.
+TEST(Warnings, ATractionThatIsNotSteadyNamesWhatLiesNear) {
+  const std::vector<std::string> driven = {"scene.element_size=12 mm", "motion.traction.torque=6 kN m"};
+  const auto warning = [&](std::vector<std::string> more, double first, double traction = 0) {
+    more.insert(more.end(), driven.begin(), driven.end());
+    const Model model(samples::tyre_scene(more));
+    RunResults r;
+    r.samples = {sample_at(0, 0), sample_at(121, 125), sample_at(300, 300)};
+    r.steady_samples = 1;
+    r.driven = true;
+    r.preload.traction = traction;
+    r.traction_coefficient = 0.2;
+    r.traction_drift = 0.02;
+    r.steady_begin = 1.6e-3;
+    r.steady_first = first;
+    r.steady_last = first + 0.1;
+    r.reached = 1;
+    for (const std::string& text : run_warnings(model, r))
+      if (const auto found = text.find("creepage are not steady there; "); found != std::string::npos)
+        return text.substr(found + 31);
+    return std::string();
+  };
+  const std::vector<std::string> ramp = {"motion.traction.ramp=1 ms"};
+  std::vector<std::string> weld = {"surface.weld.kind=dip", "surface.weld.at=100 mm",
+                                   "surface.weld.length=20 mm", "surface.weld.depth=0.1 mm"};
+  const std::string later = "a later solution_zone.start gives it the way";
+  EXPECT_EQ(warning(ramp, 0.15), "a smaller motion.traction.ramp or " + later);
+  EXPECT_EQ(warning(ramp, 0.3), later);
+  EXPECT_EQ(warning({"motion.traction.ramp=0 ms"}, 0.05, 0.2), later);
+  weld.push_back(ramp.front());
+  const std::string meets = "the wheel meets surface.weld there or shortly before, and the forces follow: ";
+  EXPECT_EQ(warning(weld, 0.15), meets +
+                                     "a run without it shows the traction alone; "
+                                     "a smaller motion.traction.ramp or " +
+                                     later);
+  weld.back() = "motion.traction.ramp=0 ms";
+  EXPECT_EQ(warning(weld, 0.15, 0.2), meets + "a run without it shows the traction alone");
+  EXPECT_EQ(warning(weld, 0.4, 0.2), later);
 }
 
 TEST(Warnings, AStaticStateThatYieldsInTheFirstStep) {
@@ -544,6 +645,30 @@ TEST(FigureParts, FasteningsAreMarkedWhereTheyStand) {
   ASSERT_EQ(std::ssize(figure.positions), scene.fastenings->count);
   EXPECT_NEAR(figure.positions[1].at - figure.positions[0].at, scene.fastenings->spacing + 0.1, 1e-12);
   EXPECT_NEAR(figure.positions[2].at - figure.positions[1].at, scene.fastenings->spacing - 0.1, 1e-12);
+}
+
+TEST(FigureParts, AWheelThatTurnsBackIsShownOnItsWholeWay) {
+  const Model model = zoned_model();
+  RunResults r;
+  r.samples = {sample_at(0, 0), sample_at(200, 200), sample_at(450, -50)};
+  const Range way = whole_way(model, r);
+  EXPECT_NEAR(way[0], -0.05, 1e-12);
+  EXPECT_NEAR(way[1], 0.2, 1e-12);
+  const Range seen = stretch_in_sight(model, way);
+  EXPECT_NEAR(seen[0], 0.1, 1e-12);
+  EXPECT_NEAR(seen[1], 0.15, 1e-12);
+  EXPECT_EQ(stretch_in_sight(model, {0.2, 0.3}), (Range{0.2, 0.3}));
+}
+
+TEST(HammerChapter, ShowsNoReceptanceUnderAWheelThatRolls) {
+  RunResults r;
+  r.samples = {sample_at(0, 0), sample_at(8, 1)};
+  const auto figures = [&](const char* speed) {
+    const Model model = zoned_model({"hammer.force=1 kN", "hammer.duration=0.2 ms", speed});
+    return hammer_chapter(model, r).blocks.size();
+  };
+  EXPECT_EQ(figures("motion.speed=0 m/s"), 2U);
+  EXPECT_EQ(figures("motion.speed=80 m/s"), 1U);
 }
 
 TEST(FigureParts, AWheelThatStandsIsShownOverTime) {

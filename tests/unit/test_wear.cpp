@@ -172,24 +172,43 @@ TEST(Development, ProfilesGrowAsTheirWorkSays) {
   }
 }
 
-/// A short stretch, whose ends fade: the bands beside hold what the taper makes of the one wave.
+/// Outcomes of a passage over a stretch of 160 mm, whose ends fade.
+std::vector<BandOutcome> outcome_of_short(auto depth, auto uneven) {
+  Development development;
+  WornProfile profile{kStart, 1e-3, {}};
+  for (int i = 0; i <= 160; ++i) profile.depth.push_back(depth(kStart + 1e-3 * i));
+  development.plan = {kPerWork, 0.05, kBand, profile};
+  development.profile = profile;
+  development.smooth.mean = work_of([](double, int) { return kMean; });
+  SurfaceWork work = development.smooth;
+  for (std::size_t i = 0; i < work.mean.x.size(); ++i) work.mean.work[i] += uneven(work.mean.x[i]);
+  development.add(work);
+  return outcome(development);
+}
+
+/// The bands beside hold what the taper makes of the one wave.
 TEST(Development, AWaveThatIsNotInTheProfileTellsNothing) {
   for (const double wavelength : {0.08, 0.0533, 0.07}) {
-    Development development;
-    WornProfile profile{kStart, 1e-3, {}};
-    for (int i = 0; i <= 160; ++i) profile.depth.push_back(1e-6 * wave(kStart + 1e-3 * i, wavelength));
-    development.plan = {kPerWork, 0.05, kBand, profile};
-    development.profile = profile;
-    development.smooth.mean = work_of([](double, int) { return kMean; });
-    SurfaceWork work = development.smooth;
-    for (std::size_t i = 0; i < work.mean.x.size(); ++i)
-      work.mean.work[i] += 50 * wave(work.mean.x[i], wavelength);
-    development.add(work);
-    const std::vector<BandOutcome> bands = outcome(development);
+    const std::vector<BandOutcome> bands =
+        outcome_of_short([&](double x) { return 1e-6 * wave(x, wavelength); },
+                         [&](double x) { return 50 * wave(x, wavelength); });
     EXPECT_EQ(std::ranges::count_if(bands, &BandOutcome::telling), 1) << wavelength;
     EXPECT_EQ(at(bands, wavelength == 0.0533 ? 0.05 : 0.08).telling, true) << wavelength;
     for (const BandOutcome& band : bands) EXPECT_FALSE(band.coherence) << "of one line " << band.wavelength;
   }
+}
+
+/// Both waves are in the profile. The taper leaks work over the short ones into the band of the long ones.
+TEST(Development, WorkThatLeaksFromAnotherBandTellsNothing) {
+  const auto long_waves_tell = [](double work) {
+    const std::vector<BandOutcome> bands =
+        outcome_of_short([](double x) { return 1e-6 * wave(x, 0.08) - 0.8e-6 * wave(x, 0.04); },
+                         [&](double x) { return work * wave(x, 0.08) - 40 * wave(x, 0.04); });
+    EXPECT_TRUE(at(bands, 0.04).telling) << work;
+    return at(bands, 0.08).telling;
+  };
+  EXPECT_TRUE(long_waves_tell(50));
+  EXPECT_FALSE(long_waves_tell(0));
 }
 
 TEST(Development, AShortApproachLeavesLittleRoomAndSaysSo) {
@@ -255,14 +274,21 @@ CorrugationSpec wave_spec() {
   return spec;
 }
 
+/// Waves of 80 mm over rows that wear by themselves, before the first passage.
+Development begun_rows(double change, double reach) {
+  Development development;
+  const Corrugation waves({0.08, 0.14e-3}, kStart, kLength, 0, 0.03);
+  development.plan = {kPerWork, change, kBand, profile_of([&](double x) { return waves.depth(x, 0); }),
+                      reach};
+  development.begin(work_of_rows(), wave_spec());
+  return development;
+}
+
 /// One passage with work by row in proportion to depth, response and the row's part, and `noise` [J/m2] of
 /// rows that alternate.
 Development developed_rows(double response, double noise, double reach) {
-  Development development;
-  const Corrugation waves({0.08, 0.14e-3}, kStart, kLength, 0, 0.03);
-  development.plan = {kPerWork, 0.05, kBand, profile_of([&](double x) { return waves.depth(x, 0); }), reach};
-  development.begin(work_of_rows(), wave_spec());
-  SurfaceWork work = development.smooth;
+  Development development = begun_rows(0.05, reach);
+  SurfaceWork work = work_of_rows();
   for (std::size_t j = 0; j < work.rows.size(); ++j)
     for (std::size_t i = 0; i < work.mean.x.size(); ++i) {
       const double x = work.mean.x[i];
@@ -285,9 +311,7 @@ double change_of(const Development& before, const Development& after, std::size_
 }
 
 TEST(Development, EachRowWearsByItsOwnWork) {
-  Development before;
-  before.plan = developed_rows(3e7, 0, 1e-4).plan;
-  before.begin(work_of_rows(), wave_spec());
+  const Development before = begun_rows(0.05, 1e-4);
   EXPECT_EQ(before.rows->y, (std::vector<double>{-2e-3, -1e-3, 0, 1e-3, 2e-3}));
   EXPECT_NEAR(before.rows->share[2], 1.0 / 3, 1e-12);
   const Development after = developed_rows(3e7, 0, 1e-4);
@@ -308,6 +332,21 @@ TEST(Development, RowsThatAlternateAreNoise) {
   const Development after = developed_rows(3e7, 400, 2e-3);
   for (const std::size_t row : {1U, 2U, 3U})
     EXPECT_NEAR(change_of(before, after, row), 0, 1e-3 * 0.07e-3 * 0.05) << row;
+}
+
+/// Work of the middle row also wears the rows beside it, and counts by the shares over the smooth rail.
+TEST(Development, TheMeanOfTheRowsGrowsAsItsWorkSays) {
+  Development development = begun_rows(0.005, 2e-3);
+  SurfaceWork work = work_of_rows();
+  for (std::size_t i = 0; i < work.mean.x.size(); ++i)
+    work.rows[2].work[i] += 3e7 * development.rows->depth[2][place_of(work.mean.x[i])];
+  work.average();
+  development.add(work);
+  const BandOutcome band = at(outcome(development), 0.08);
+  EXPECT_TRUE(band.telling);
+  const double growth = kPerWork * 3e7 * (0.5 * 1.0 + 0.25 * 2 * 0.7) / 3;
+  EXPECT_NEAR(band.first_growth, growth, 0.02 * growth);
+  EXPECT_NEAR(band.growth, growth, 0.1 * growth);
 }
 
 TEST(Development, HalfTheChangeGrowsAlike) {

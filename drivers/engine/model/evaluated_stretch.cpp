@@ -13,7 +13,7 @@ Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation) {
 }
 
 double settled_torque_time(const Scene& scene) {
-  return 1.5 * scene.motion->ramp;
+  return (1.5 + 2 * scene.motion->reversals) * scene.motion->ramp;
 }
 
 double settled_torque_x(const Scene& scene) {

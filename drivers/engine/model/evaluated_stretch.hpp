@@ -11,7 +11,8 @@ namespace tread {
 /// a smooth rail.
 Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation);
 
-/// Time from which the torque of a scene with [motion] counts as settled: half a ramp beyond its end [s].
+/// Time from which the torque of a scene with [motion] counts as settled: half a ramp beyond its last change
+/// [s].
 double settled_torque_time(const Scene& scene);
 
 /// Foremost place of the wheel at that time, by travel_of() [m].

@@ -58,16 +58,21 @@ Table comparison_of(const Outcome& o, const std::string& force) {
                {"Curve less run", Align::right},
                {"Unit"}},
               {}};
-  const auto row = [&](const std::string& name, double run, double curve, double scale, const char* unit) {
-    table.rows.push_back({name, readable(scale * run, 5), readable(scale * curve, 5),
-                          readable(scale * (curve - run), 4), unit});
+  const auto row = [&](const std::string& name, double run, double curve, double apart, const char* unit) {
+    table.rows.push_back({name, readable(run, 5), readable(curve, 5), readable(apart, 4), unit});
   };
-  row("Largest " + force, c.of_run.max, c.of_curve.max, 1e-3, "kN");
-  row("Smallest " + force, c.of_run.min, c.of_curve.min, 1e-3, "kN");
-  row("Mean " + force, c.of_run.mean, c.of_curve.mean, 1e-3, "kN");
-  row("Range", c.of_run.range(), c.of_curve.range(), 1e-3, "kN");
-  if (c.run_shift && c.curve_shift)
-    row("Peaks before the crests", *c.run_shift, *c.curve_shift, 1 / std::numbers::pi, "pi");
+  const auto forces = [&](const std::string& name, double run, double curve) {
+    row(name, 1e-3 * run, 1e-3 * curve, 1e-3 * (curve - run), "kN");
+  };
+  forces("Largest " + force, c.of_run.max, c.of_curve.max);
+  forces("Smallest " + force, c.of_run.min, c.of_curve.min);
+  forces("Mean " + force, c.of_run.mean, c.of_curve.mean);
+  forces("Range", c.of_run.range(), c.of_curve.range());
+  if (c.run_shift && c.curve_shift) {
+    const double run = *c.run_shift / std::numbers::pi;
+    const double curve = *c.curve_shift / std::numbers::pi;
+    row("Peaks before the crests", run, curve, std::remainder(curve - run, 2), "pi");
+  }
   table.rows.push_back({"Root mean square of the difference", "", "", readable(1e-3 * c.misfit, 4), "kN"});
   if (c.correlation)
     table.rows.push_back({"Correlation", "", "", fmt::format("{:.4f}", *c.correlation), "-"});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/math/interpolation.hpp"
@@ -108,10 +109,12 @@ std::string stated_limits(const ComparisonOptions& options) {
       cure, fmt::arg("unit", unit)));
 }
 
-/// Lead of the peaks before the crests of the scene's sine [rad].
-std::optional<double> shift_of(const Scene& scene, const std::vector<double>& x,
-                               const std::vector<double>& force) {
+/// Lead of the peaks before the crests of the scene's sine [rad]. Peaks of a force that is negative in the
+/// mean, as F_L of a wheel that brakes, are its least values.
+std::optional<double> shift_of(const Scene& scene, const std::vector<double>& x, std::vector<double> force) {
   if (!scene.corrugation || scene.corrugation->kind != "sine") return std::nullopt;
+  if (std::accumulate(force.begin(), force.end(), 0.0) < 0)
+    for (double& value : force) value = -value;
   const Corrugation sine = corrugation_of(*scene.corrugation, scene.corrugation->centre.value_or(0));
   const std::vector<CrestPeak> peaks = crest_peaks(sine, scene.corrugation->wavelength, x, force);
   if (peaks.empty()) return std::nullopt;

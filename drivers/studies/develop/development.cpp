@@ -110,6 +110,7 @@ void Development::begin(SurfaceWork over_smooth, const CorrugationSpec& corrugat
   smooth = std::move(over_smooth);
   profile = plan.start;
   if (!plan.reach_across) return;
+  smooth = smoothed_across(std::move(smooth), *plan.reach_across);
   const Corrugation shape = corrugation_of(corrugation, centre(corrugation));
   rows.emplace();
   for (const WorkRow& row : smooth.rows) {
@@ -125,11 +126,13 @@ void Development::begin(SurfaceWork over_smooth, const CorrugationSpec& corrugat
 void Development::add(const SurfaceWork& work) {
   WornPassage passage;
   passage.profile = profile;
-  passage.work = without(work.mean, smooth.mean);
+  SurfaceWork wearing;  // by rows
+  if (rows) wearing = work_beyond(smoothed_across(work, *plan.reach_across), smooth);
+  passage.work = rows ? wearing.mean : without(work.mean, smooth.mean);
   passage.uneven = uneven_work(passage.work, profile, plan.band);
   passage.bands = growth_bands(profile, passage.work, plan.band);
   if (rows) {
-    const auto uneven = uneven_rows(work, smooth, profile, plan.band, *plan.reach_across);
+    const auto uneven = uneven_rows(wearing, profile, plan.band);
     passage.passages =
         passages_for(plan.change, range_of_rows(rows->depth), plan.per_work, range_of_rows(uneven));
     rows->add(passage.passages * plan.per_work, uneven);
@@ -179,7 +182,7 @@ std::vector<BandOutcome> outcome(const Development& development) {
     band.lag = first[i].lag();
     band.coherence = first[i].coherence;
     band.telling = band.before >= kTellingDepth * deepest_before->depth && band.before > first[i].leakage &&
-                   band.coherence.value_or(1) >= kTellingCoherence;
+                   first[i].work > first[i].work_leakage && band.coherence.value_or(1) >= kTellingCoherence;
     bands.push_back(band);
   }
   return bands;

@@ -31,8 +31,10 @@ WearPlan wear_plan(const Scene& scene);
 
 /// A simulated passage.
 struct WornPassage {
-  WornProfile profile;         ///< profile under the passage
-  PassageWork work;            ///< work beyond that of the smooth rail, averaged across [J/m2]
+  WornProfile profile;  ///< profile under the passage
+  /// Work beyond that of the smooth rail, averaged across; by rows: of the smoothed work that wears them
+  /// [J/m2].
+  PassageWork work;
   std::vector<double> uneven;  ///< part of the work that wears the profile unevenly [J/m2]
   double passages = 0;         ///< number of real passages that it stands for
   std::vector<GrowthBand> bands;
@@ -41,7 +43,7 @@ struct WornPassage {
 /// All passages so far.
 struct Development {
   WearPlan plan;
-  SurfaceWork smooth;  ///< the passage over the smooth rail
+  SurfaceWork smooth;  ///< the passage over the smooth rail; by rows: smoothed across
   std::vector<WornPassage> passages;
   WornProfile profile;           ///< profile after the passages; by rows: their mean
   std::optional<WornRows> rows;  ///< depths by row after the passages, with WearPlan::reach_across
@@ -69,7 +71,7 @@ struct BandOutcome {
   double per_wear = 0;              ///< first_growth over the depth that a passage wears off evenly [1/m]
   double lag = 0;                   ///< lag of the first passage's work past the trough, in waves
   std::optional<double> coherence;  ///< coherence of the first passage; absent for a single line
-  bool telling = false;             ///< true if the profile has enough of the band to tell a response
+  bool telling = false;             ///< true if profile and work have enough of the band to tell a response
 };
 
 /// Outcomes of all bands, longest waves first; empty before the first passage.

@@ -281,7 +281,7 @@ std::string verdict(const Development& d) {
   if (!band->telling)
     text += band->coherence.value_or(1) < kTellingCoherence
                 ? fmt::format("; with a coherence of {:.2f} that tells little", *band->coherence)
-                : "; the profile had too little of these waves to tell";
+                : "; profile or work had too little of these waves to tell";
   return text + ".";
 }
 
@@ -300,7 +300,7 @@ Report development_report(const Development& d, const ResolvedScene& resolved, c
              "Past "
              "trough: where the work is largest as the wheel rolls. Profiles also fade at the ends of the "
              "stretch. "
-             "* too little of these waves in the profile, or of the work explained by them, to tell."}}});
+             "* too little of these waves in profile or work, or of the work explained by them, to tell."}}});
   Chapter profile{"Profile", {profile_figure(d), spectrum_figure(d), passage_table(d)}};
   if (d.rows) profile.blocks.insert(profile.blocks.begin() + 1, rows_map(d));
   report.chapters.push_back(std::move(profile));

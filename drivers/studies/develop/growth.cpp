@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -15,9 +16,9 @@ using Complex = std::complex<double>;
 
 /// Fourier coefficients of depth and work, each without its mean.
 struct Line {
-  double turn = 0;  ///< 2 pi / wavelength [1/m]
-  Complex depth;    ///< [m]
-  Complex work;     ///< [J/m2]
+  int wave = 0;   ///< number of waves in the stretch
+  Complex depth;  ///< [m]
+  Complex work;   ///< [J/m2]
 };
 
 /// Depths as stations, each of which stands for an equal length of the rail.
@@ -49,7 +50,7 @@ std::vector<Line> lines_in(const RoughnessBand& octave_third, const WornProfile&
   const auto first = static_cast<int>(std::ceil(length / octave_third.high()));
   for (int wave = std::max(1, first); length / wave > octave_third.low(); ++wave) {
     const double turn = 2 * std::numbers::pi * wave / length;
-    lines.push_back({turn, work_line(depths, mean_depth, turn, profile, band),
+    lines.push_back({wave, work_line(depths, mean_depth, turn, profile, band),
                      work_line(uneven, mean, turn, profile, band)});
   }
   return lines;
@@ -67,27 +68,62 @@ GrowthBand band_of(double wavelength, const std::vector<Line>& lines, double tap
     works += std::norm(line.work);
   }
   result.depth = std::sqrt(2 * depths / taper);
+  result.work = std::sqrt(2 * works / taper);
   result.response = depths > 0 ? cross / depths : 0;
   if (lines.size() > 1) result.coherence = depths * works > 0 ? std::norm(cross) / (depths * works) : 0;
   return result;
 }
 
-/// Largest sum of squares that a wave leaves in the lines by the taper's own spectrum, over the square that
-/// it leaves in the line `largest`. The wave lies up to half a line beside that line.
-double leaked_share(const Line& largest, const std::vector<Line>& lines, const WornProfile& profile,
-                    const WearBand& band) {
-  PassageWork even = as_stations(profile);
-  std::fill(even.work.begin(), even.work.end(), 1.0);
-  const auto square = [&](double turn) { return std::norm(work_line(even, 0, turn, profile, band)); };
-  const double line = 2 * std::numbers::pi / profile.length();
-  double most = 0;
-  for (const double beside : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
-    const double wave = largest.turn + beside * line;
-    double sum = 0;
-    for (const Line& one : lines) sum += square(one.turn - wave);
-    most = std::max(most, sum / square(largest.turn - wave));
+/// Parts of a wave that the fading ends of a stretch leave beside its line.
+class Leakage {
+ public:
+  /// `waves`: largest distance of two lines.
+  Leakage(const WornProfile& profile, const WearBand& band, int waves) : power_(taper_power(profile, band)) {
+    PassageWork even = as_stations(profile);
+    std::fill(even.work.begin(), even.work.end(), 1.0);
+    for (int quarter = 0; quarter <= kParts * waves + kHalf; ++quarter) {
+      const double turn = 2 * std::numbers::pi * quarter / (kParts * profile.length());
+      squares_.push_back(std::norm(work_line(even, 0, turn, profile, band)));
+    }
   }
-  return most;
+
+  /// Largest root mean square in the lines `into` of a band by a wave whose largest line is that of the lines
+  /// `from` of another band, in the unit of `value`. The wave lies up to half a line beside that line.
+  double left(const std::vector<Line>& into, const std::vector<Line>& from, Complex Line::*value) const {
+    const Line& largest =
+        *std::ranges::max_element(from, {}, [value](const Line& line) { return std::norm(line.*value); });
+    double most = 0;
+    for (int beside = -kHalf; beside <= kHalf; ++beside) {
+      double sum = 0;
+      for (const Line& line : into) sum += square(kParts * (line.wave - largest.wave) - beside);
+      most = std::max(most, sum / square(beside));
+    }
+    return std::abs(largest.*value) * std::sqrt(2 * most / power_);
+  }
+
+ private:
+  static constexpr int kParts = 4;  ///< of the distance between two lines
+  static constexpr int kHalf = kParts / 2;
+
+  /// Square of the taper's spectrum, so many parts from its middle.
+  double square(int parts) const { return squares_[static_cast<std::size_t>(std::abs(parts))]; }
+
+  double power_;
+  std::vector<double> squares_;
+};
+
+/// Fills the leakage of all bands, whose lines these are.
+void add_leakage(const std::vector<std::vector<Line>>& lines, const Leakage& leakage,
+                 std::vector<GrowthBand>& bands) {
+  const GrowthBand* deepest = deepest_band(bands);
+  const auto busiest = std::ranges::max_element(bands, {}, &GrowthBand::work);
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    for (std::size_t other = 0; other < bands.size(); ++other) {
+      if (other == i) continue;
+      if (&bands[other] == deepest) bands[i].leakage = leakage.left(lines[i], lines[other], &Line::depth);
+      if (&bands[other] == &*busiest)
+        bands[i].work_leakage = leakage.left(lines[i], lines[other], &Line::work);
+    }
 }
 
 }  // namespace
@@ -108,14 +144,9 @@ std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWo
     bands.push_back(band_of(third.nominal, in_third, taper));
     lines.push_back(std::move(in_third));
   }
-  const GrowthBand* deepest = deepest_band(bands);
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    if (&bands[i] == deepest) continue;
-    const std::vector<Line>& of_deepest = lines[static_cast<std::size_t>(deepest - bands.data())];
-    const Line& largest =
-        *std::ranges::max_element(of_deepest, {}, [](const Line& line) { return std::norm(line.depth); });
-    bands[i].leakage =
-        std::abs(largest.depth) * std::sqrt(2 * leaked_share(largest, lines[i], profile, band) / taper);
+  if (!bands.empty()) {
+    const int waves = lines.back().back().wave - lines.front().front().wave;
+    add_leakage(lines, Leakage(profile, band, waves), bands);
   }
   return bands;
 }

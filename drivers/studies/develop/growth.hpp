@@ -21,6 +21,8 @@ struct GrowthBand {
   /// Root mean square depth that the largest line of the deepest band may leave in this band where the ends
   /// fade [m]; 0 in the deepest band itself.
   double leakage = 0;
+  double work = 0;          ///< root mean square work [J/m2]
+  double work_leakage = 0;  ///< the same by the largest line of the work of the band with most [J/m2]
 
   /// Distance of the work's maximum past the trough in the direction of rolling, in waves, -0.5 to 0.5.
   double lag() const;

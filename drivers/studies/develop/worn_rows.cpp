@@ -4,35 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "core/error.hpp"
 
 namespace tread {
-
-namespace {
-
-/// Weighted mean of the rows within `reach` of each row; weights fall as a cosine to 0 at `reach`.
-std::vector<std::vector<double>> smoothed_across(const std::vector<std::vector<double>>& values,
-                                                 const std::vector<WorkRow>& rows, double reach) {
-  std::vector<std::vector<double>> result;
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    std::vector<double> row(values[j].size(), 0.0);
-    double weights = 0;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double distance = std::abs(rows[k].y - rows[j].y);
-      if (distance >= reach && k != j) continue;
-      const double weight = rows[k].width * (1 + std::cos(std::numbers::pi * distance / reach));
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] += weight * values[k][i];
-      weights += weight;
-    }
-    for (double& value : row) value /= weights;
-    result.push_back(std::move(row));
-  }
-  return result;
-}
-
-}  // namespace
 
 void SurfaceWork::average() {
   double whole = 0;
@@ -41,11 +16,14 @@ void SurfaceWork::average() {
     for (std::size_t i = 0; i < row.work.size(); ++i) row.share += mean.length[i] * row.work[i] * row.width;
     whole += row.share;
   }
+  for (WorkRow& row : rows) row.share = whole > 0 ? row.share / whole : 0;
+  weigh();
+}
+
+void SurfaceWork::weigh() {
   mean.work.assign(mean.x.size(), 0.0);
-  for (WorkRow& row : rows) {
-    row.share = whole > 0 ? row.share / whole : 0;
+  for (const WorkRow& row : rows)
     for (std::size_t i = 0; i < row.work.size(); ++i) mean.work[i] += row.share * row.work[i];
-  }
 }
 
 PassageWork SurfaceWork::along(std::size_t row) const {
@@ -75,14 +53,42 @@ double range_of_rows(const std::vector<std::vector<double>>& rows) {
   return high - low;
 }
 
-std::vector<std::vector<double>> uneven_rows(const SurfaceWork& work, const SurfaceWork& smooth,
-                                             const WornProfile& profile, const WearBand& band, double reach) {
+SurfaceWork smoothed_across(SurfaceWork work, double reach) {
+  const std::vector<WorkRow> rows = work.rows;
+  for (WorkRow& row : work.rows) {
+    std::fill(row.work.begin(), row.work.end(), 0.0);
+    double weights = 0;
+    for (const WorkRow& other : rows) {
+      const double distance = std::abs(other.y - row.y);
+      if (distance >= reach && distance > 0) continue;
+      // It falls as a cosine to 0 at `reach`.
+      const double weight = other.width * (1 + std::cos(std::numbers::pi * distance / reach));
+      for (std::size_t i = 0; i < row.work.size(); ++i) row.work[i] += weight * other.work[i];
+      weights += weight;
+    }
+    for (double& value : row.work) value /= weights;
+  }
+  work.weigh();
+  return work;
+}
+
+SurfaceWork work_beyond(SurfaceWork work, const SurfaceWork& smooth) {
   if (work.rows.size() != smooth.rows.size())
     throw InputError("the passages are of different meshes: begin the development in another folder");
+  for (std::size_t j = 0; j < work.rows.size(); ++j) {
+    work.rows[j].work = without(work.along(j), smooth.along(j)).work;
+    work.rows[j].share = smooth.rows[j].share;
+  }
+  work.weigh();
+  return work;
+}
+
+std::vector<std::vector<double>> uneven_rows(const SurfaceWork& work, const WornProfile& profile,
+                                             const WearBand& band) {
   std::vector<std::vector<double>> uneven;
   for (std::size_t j = 0; j < work.rows.size(); ++j)
-    uneven.push_back(uneven_work(without(work.along(j), smooth.along(j)), profile, band));
-  return smoothed_across(uneven, work.rows, reach);
+    uneven.push_back(uneven_work(work.along(j), profile, band));
+  return uneven;
 }
 
 }  // namespace tread

@@ -23,6 +23,8 @@ struct SurfaceWork {
 
   /// Sets the shares and the average from the rows' work at the stations of `mean`.
   void average();
+  /// Sets the average from the rows' work and shares.
+  void weigh();
   /// Work of a row at the stations.
   PassageWork along(std::size_t row) const;
 };
@@ -42,10 +44,16 @@ struct WornRows {
 /// Difference of the largest and the smallest value of all rows.
 double range_of_rows(const std::vector<std::vector<double>>& rows);
 
-/// Uneven part of each row's work beyond `smooth` at the places of `profile`, as uneven_work(), without
-/// differences across the rail within `reach` [m]: [row][place] [J/m2]. Throws InputError if the passages are
-/// of different meshes.
-std::vector<std::vector<double>> uneven_rows(const SurfaceWork& work, const SurfaceWork& smooth,
-                                             const WornProfile& profile, const WearBand& band, double reach);
+/// The work without differences across the rail within `reach` [m], averaged by its shares. [theory.md, eq.
+/// (W6)]
+SurfaceWork smoothed_across(SurfaceWork work, double reach);
+
+/// Work by row beyond `smooth`, averaged by the shares of `smooth`. Throws InputError if the passages are of
+/// different meshes.
+SurfaceWork work_beyond(SurfaceWork work, const SurfaceWork& smooth);
+
+/// Uneven part of each row's work at the places of `profile`, as uneven_work(): [row][place] [J/m2].
+std::vector<std::vector<double>> uneven_rows(const SurfaceWork& work, const WornProfile& profile,
+                                             const WearBand& band);
 
 }  // namespace tread

@@ -137,9 +137,13 @@ std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavele
 }
 
 double mean_shift(const std::vector<CrestPeak>& peaks) {
-  double sum = 0;
-  for (const CrestPeak& p : peaks) sum += p.shift;
-  return peaks.empty() ? 0 : sum / static_cast<double>(peaks.size());
+  double sine = 0;
+  double cosine = 0;
+  for (const CrestPeak& p : peaks) {
+    sine += std::sin(p.shift);
+    cosine += std::cos(p.shift);
+  }
+  return std::atan2(sine, cosine);
 }
 
 double chosen_step(const ModalTrack& track, const MultibodyModel& model, double speed) {

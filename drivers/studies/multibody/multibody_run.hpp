@@ -60,7 +60,7 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
 std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
                                    const std::vector<double>& x, const std::vector<double>& force);
 
-/// Mean shift over the crests [rad]; 0 without any.
+/// Mean direction of the shifts over the crests, -pi to pi [rad]; 0 without any.
 double mean_shift(const std::vector<CrestPeak>& peaks);
 
 /// Step of a passage [s] at a speed [m/s]: half the stable step, at most 1/40 of the passing of the shortest
