@@ -21,6 +21,7 @@
 #include "kernels/hexahedra/body_force.hpp"
 #include "kernels/hexahedra/hex_force.hpp"
 #include "tests/exported_deck.hpp"
+#include "tests/field_differences.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 
@@ -50,20 +51,6 @@ std::vector<double> cartesian_values(const SweptBlock& block, const AlignedVecto
       values.insert(values.end(), {at.x, at.y, at.z, 0.0});
     }
   return values;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
-/// Largest difference by the largest value.
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-  EXPECT_EQ(a.size(), b.size());
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most / largest(b);
 }
 
 /// A swept block, and the same elements one by one.
@@ -107,7 +94,7 @@ TEST(Hexahedra, ForceIsThatOfTheSweptPath) {
             paths.general->use_instruction_set(set);
             std::vector<double> f(at.size(), 1e300);
             paths.general->internal_force(at.data(), speed.data(), f.data());
-            EXPECT_LT(difference(f, cartesian_values(paths.block(), expected)), 1e-12)
+            EXPECT_LT(samples::relative_difference(f, cartesian_values(paths.block(), expected)), 1e-12)
                 << block.name << " " << angle << " " << finite_rotation << " " << set;
           }
         }
@@ -190,7 +177,7 @@ TEST(Hexahedra, ForceOfDistortedElementsIsThatOfTheOracle) {
       general.use_instruction_set(set);
       std::vector<double> f(u.size());
       general.internal_force(u.data(), nullptr, f.data());
-      EXPECT_LT(difference(f, expected), 1e-12) << set;
+      EXPECT_LT(samples::relative_difference(f, expected), 1e-12) << set;
     }
   }
 }
@@ -361,10 +348,9 @@ void expect_same_scene(const Scene& scene, int pieces) {
   const VtkGrid& grid = numbered.grid();
   ASSERT_EQ(mesh.nodes.size(), grid.points.size());
   ASSERT_EQ(8 * mesh.elements.size(), grid.connectivity.size());
-  double farthest = 0;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    farthest = std::max(farthest, norm(mesh.nodes[n] - numbered.place(grid.points[n])));
-  EXPECT_LT(farthest,
+  std::vector<Vec3> places;
+  for (const VtkGrid::Point& point : grid.points) places.push_back(numbered.place(point));
+  EXPECT_LT(samples::difference(mesh.nodes, places),
             8.7e-14);  // 15 characters of some hundred millimetres: half of 1e-10 mm along each axis
   for (std::size_t i = 0; i < grid.connectivity.size(); ++i)
     ASSERT_EQ(mesh.elements[i / 8][i % 8], grid.connectivity[i]);
@@ -387,7 +373,7 @@ void expect_same_scene(const Scene& scene, int pieces) {
   std::vector<double> f(at.size());
   general.apply(at.data(), f.data());
   // Half a unit of the deck's fifteenth digit in places of 0.5 m, over edges of 9 mm.
-  EXPECT_LT(difference(f, swept), 1e-11);
+  EXPECT_LT(samples::relative_difference(f, swept), 1e-11);
 }
 
 TEST(ImportedScene, HasTheForcesOfTheExportedTyre) {

@@ -13,6 +13,7 @@
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/engine/start/step_limit.hpp"
 #include "kernels/blocks/internal_force.hpp"
+#include "tests/field_differences.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 #include "tests/tyre_scene.hpp"
@@ -56,21 +57,18 @@ double force_error(const Mesh& mesh, const AlignedVector<double>& u, const Align
   const AlignedVector<float> v_rounded(v.begin(), v.end());
   AlignedVector<double> f(u.size());
   force.internal_force(u.data(), v.data(), f.data());
-  double largest = 0;
-  for (const double value : f) largest = std::max(largest, std::abs(value));
   double error = 0;
   for (const char* set : InternalForce::instruction_sets()) {
     rounded.use_instruction_set(set);
     AlignedVector<float> found(u.size(), 1e30F);
     rounded.internal_force(u_rounded.data(), v_rounded.data(), found.data());
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      error = std::max(error, std::abs(found[i] - f[i]) / largest);
+    error = std::max(error, samples::difference(found, f));
+    for (std::size_t i = 0; i < f.size(); ++i)
       if (f[i] == 0) {
         EXPECT_EQ(found[i], 0) << set;
       }
-    }
   }
-  return error;
+  return error / samples::largest(f);
 }
 
 TEST(PrecisionOfForces, DifferencesAreFormedBeforeTheyAreRounded) {

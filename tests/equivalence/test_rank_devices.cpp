@@ -20,6 +20,7 @@
 #include "core/parallel/ranks.hpp"
 #include "drivers/run/followers.hpp"
 #include "tests/device_cases.hpp"
+#include "tests/refusal.hpp"
 #include "tests/thread_ranks.hpp"
 
 namespace tread {
@@ -39,7 +40,13 @@ class ToldRank final : public Ranks {
   ToldRank(int rank, Told& told) : rank_(rank), told_(&told) {}
   int rank() const override { return rank_; }
   int count() const override { return 2; }
-  void broadcast(std::span<std::byte> bytes) override {
+  void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
+  void post(std::span<const RankSegment> /*sent*/) override {}
+  void receive(std::span<const RankSegment> /*received*/) override {}
+  void end_all(int code) override { std::exit(code); }
+
+ private:
+  void broadcast_bytes(std::span<std::byte> bytes) override {
     if (rank_ == 0) {
       told_->emplace_back(bytes.begin(), bytes.end());
       return;
@@ -49,12 +56,6 @@ class ToldRank final : public Ranks {
     std::copy(told_->front().begin(), told_->front().end(), bytes.begin());
     told_->pop_front();
   }
-  void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
-  void post(std::span<const RankSegment> /*sent*/) override {}
-  void receive(std::span<const RankSegment> /*received*/) override {}
-  void end_all(int code) override { std::exit(code); }
-
- private:
   void gather_values(std::byte* /*values*/, int /*size*/, std::span<const std::int64_t> /*first*/) override {}
 
   int rank_;
@@ -110,14 +111,10 @@ TEST(RankDevices, AnotherDeviceThanThatOfRank0IsRefused) {
   const auto card = std::as_bytes(std::span<const char>("NVIDIA X", 8));
   told[told.size() - 2].assign(card.begin(), card.end());
   ToldRank other(1, told);
-  try {
-    follow(other);
-    ADD_FAILURE() << "accepted";
-  } catch (const ResourceError& error) {
-    EXPECT_STREQ(error.what(),
-                 "rank 1 has emulated, rank 0 has NVIDIA X; state --device gpu:N, or let "
-                 "CUDA_VISIBLE_DEVICES show equal cards");
-  }
+  EXPECT_EQ(
+      samples::refusal<ResourceError>([&] { follow(other); }),
+      "rank 1 has emulated, rank 0 has NVIDIA X; state --device gpu:N, or let CUDA_VISIBLE_DEVICES show "
+      "equal cards");
   choose_device("cpu");
 }
 

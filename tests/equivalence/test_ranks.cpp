@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "drivers/results/run_results.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/thread_ranks.hpp"
 #include "tests/tyre_scene.hpp"
 
@@ -30,20 +33,36 @@ class Case {
           << count << " ranks, " << steps;
       for (const auto& simulation : shared.simulations())
         EXPECT_EQ(history_row(of_.model(), one_->sample()), history_row(of_.model(), simulation->sample()));
+      const std::vector<double> measured = measurements(shared.front());
+      if (measured.empty()) continue;  // the ranks have not sampled as yet
+      EXPECT_EQ(measurements(*one_), measured) << count << " ranks, " << steps;
     }
+    EXPECT_EQ(measurements(shared.front()).size(), one_->measurements().channels().size());
   }
 
  private:
+  static std::vector<double> measurements(const Simulation& simulation) {
+    const std::span<const double> values = simulation.measurements().values();
+    return {values.begin(), values.end()};
+  }
+
   samples::PreloadedScene of_;
   std::unique_ptr<Simulation> one_;
 };
 
-/// The runs of all numbers of ranks follow one another. The wheel is anchored after 256 steps. The cut does
-/// not depend on the precision.
-void expect_same_bits(const Scene& scene, const std::vector<std::int64_t>& looks = {1, 63, 36, 170}) {
+const std::vector<std::int64_t> kLooks = {1, 63, 36, 170};  // the wheel is anchored after 256 steps
+const std::vector<int> kCounts = {2, 3, 4, 7};
+
+/// The runs of all numbers of ranks follow one another.
+void expect_same_bits_on(const std::vector<int>& counts, const Scene& scene,
+                         const std::vector<std::int64_t>& looks = kLooks) {
   Case of(scene);
-  const std::vector<int> counts = scene.precision == "double" ? std::vector{2, 3, 4, 7} : std::vector{3};
   for (const int count : counts) of.expect_same_steps(count, looks);
+}
+
+/// On three ranks in less than double: the cut does not depend on the precision.
+void expect_same_bits(const Scene& scene, const std::vector<std::int64_t>& looks = kLooks) {
+  expect_same_bits_on(scene.precision == "double" ? kCounts : std::vector{3}, scene, looks);
 }
 
 Scene tyre(const std::string& precision, std::vector<std::string> overrides) {
@@ -61,11 +80,11 @@ constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
 
 TEST(Ranks, TractionOverCorrugation) {
   for (const char* precision : kPrecisions)
-    expect_same_bits(
-        tyre(precision,
-             {"motion.traction.torque=13.8 kN m", "motion.traction.ramp=0.05 ms", "corrugation.kind=sine",
-              "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm", "corrugation.width=30 mm",
-              "corrugation.start=5 mm", "corrugation.length=40 mm", "corrugation.apply=nodes"}));
+    expect_same_bits_on(kCounts, tyre(precision, {"motion.traction.torque=13.8 kN m",
+                                                  "motion.traction.ramp=0.05 ms", "corrugation.kind=sine",
+                                                  "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm",
+                                                  "corrugation.width=30 mm", "corrugation.start=5 mm",
+                                                  "corrugation.length=40 mm", "corrugation.apply=nodes"}));
 }
 
 TEST(Ranks, MaxwellBranches) {
@@ -103,6 +122,50 @@ TEST(Ranks, GuidedBoreAndFallingFriction) {
   expect_same_bits(
       tyre("double", {"wheel.bore=guided", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
                       "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}));
+}
+
+/// Rank 0 measures all over the mesh.
+TEST(Ranks, MeasurementsOnSleepers) {
+  const samples::TemporaryFolder folder;
+  const std::string friction = (folder.path / "friction.txt").string();
+  std::ofstream(friction) << "# x [mm]  f [-]\n0 0.5\n20 0.1\n";
+  const std::string map = (folder.path / "map.txt").string();
+  std::ofstream(map) << "# x [mm]  y [mm]  d [um]\n-20 -5 0\n30 -5 10\n-20 9 0\n30 9 20\n";
+  expect_same_bits_on({2, 4},
+                      tyre("double", {"motion.start=rigid",
+                                      "motion.traction.torque=5 kN m",
+                                      "motion.traction.ramp=0.05 ms",
+                                      "rail.support=fastenings",
+                                      "rail.height=150 mm",
+                                      "rail.length=1.5 m",
+                                      "rail.origin=0.75 m",
+                                      "fastenings.count=3",
+                                      "fastenings.spacing=0.6 m",
+                                      "fastenings.first=0.15 m",
+                                      "fastenings.pad_width=40 mm",
+                                      "fastenings.damping=20 kN s/m",
+                                      "material.concrete.youngs_modulus=35 GPa",
+                                      "material.concrete.poissons_ratio=0.2",
+                                      "material.concrete.density=2400 kg/m3",
+                                      "sleepers.stiffness=40 MN/m",
+                                      "support.soft.fastening=2",
+                                      "support.soft.stiffness=0.5",
+                                      "surface.squat.kind=map",
+                                      "surface.squat.at=4 mm",
+                                      "surface.squat.file=" + map,
+                                      "contact.friction_law=table",
+                                      "contact.friction_file=" + friction,
+                                      "contact.friction_start=-5 mm",
+                                      "probe.head.x=20 mm",
+                                      "probe.head.quantity=all",
+                                      "probe.far.x=0.6 m",
+                                      "probe.far.depth=30 mm",
+                                      "probe.rim.body=wheel",
+                                      "probe.rim.quantity=stress",
+                                      "probe.box.body=axle_box",
+                                      "output.fastening_forces=true",
+                                      "output.stress_depth=20 mm"}),
+                      {1, 63, 36});
 }
 
 TEST(Ranks, HammerOnARailOnFastenings) {

@@ -40,10 +40,7 @@ class LaunchedRanks : public ProgramTest {
   void TearDown() override { fs::remove_all(folder_); }
 
   static pid_t start_on(int ranks, const std::string& arguments) {
-    return start_program(arguments, root_,
-                         "export TREAD_CACHE=off OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                         "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1;",
-                         fmt::format("mpirun -n {}", ranks));
+    return start_program(arguments, root_, kEnvironment, fmt::format("mpirun -n {}", ranks));
   }
   static int call_on(int ranks, const std::string& arguments) { return wait_for(start_on(ranks, arguments)); }
 
@@ -88,6 +85,9 @@ class LaunchedRanks : public ProgramTest {
     return 0;
   }
 
+  static constexpr const char* kEnvironment =
+      "export TREAD_CACHE=off OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+      "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1;";
   static constexpr const char* kSize = "--set \"scene.element_size=8 mm\"";
   /// Steps take long enough for a request.
   static inline const std::string kLong = "--set \"scene.element_size=5 mm\" ";
@@ -113,6 +113,22 @@ TEST_F(LaunchedRanks, FilesAreThoseOfOneProcess) {
   }
 }
 
+TEST_F(LaunchedRanks, StudyLaunchesItsRunsByMpirun) {
+  std::ofstream(root_ / "study.toml") << fmt::format(
+      "[study]\nscene = \"{}\"\n[set]\nscene.element_size = \"8 mm\"\nmotion.duration = \"0.15 ms\"\n"
+      "[grid]\nmotion.traction.mu = [0.1, 0.3]\n",
+      kTyre);
+  const std::string study =
+      fmt::format("sweep {} -t 1 --jobs 1 --no-share ", shell_word(root_ / "study.toml"));
+  const fs::path alone = root_ / "points";
+  ASSERT_EQ(call(study + "-o " + alone.string()), 0) << errors();
+  ASSERT_EQ(call(study + "--launcher \"mpirun -n 2\" -o " + folder_.string(), kEnvironment), 0) << errors();
+  for (const char* point : {"mu=0.1", "mu=0.3"}) {
+    EXPECT_TRUE(has(content_of(folder_ / point / "log.txt"), "[ranks] 2 ranks")) << point;
+    expect_same_run(alone / point, folder_ / point);
+  }
+}
+
 TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
   const std::string short_run = "--set \"motion.duration=0.3 ms\"";
   ASSERT_EQ(call(run(root_ / "whole", short_run)), 0) << errors();
@@ -123,6 +139,15 @@ TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
   EXPECT_EQ(call(resume + "222"), 4) << errors();
   EXPECT_EQ(call_on(4, resume + "0"), 0) << errors();
   expect_same_run(root_ / "whole", folder_);
+}
+
+/// A fork ends as the run that kept its state.
+TEST_F(LaunchedRanks, ForkTheStateOfOneProcess) {
+  const std::string forks = "--set \"motion.duration=0.15 ms\" --set \"forks.at=0.08 ms\"";
+  ASSERT_EQ(call(run(root_ / "kept", forks)), 0) << errors();
+  ASSERT_EQ(call_on(2, run(folder_, forks + " --from " + (root_ / "kept").string())), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[fork] from")) << errors();
+  expect_same_run(root_ / "kept", folder_);
 }
 
 /// Files of ranks with a device each are those of two such ranks. One process says that it is another.

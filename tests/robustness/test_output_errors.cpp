@@ -18,23 +18,13 @@
 #include "io/files/history_file.hpp"
 #include "io/files/output_file.hpp"
 #include "tests/commands_test.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The message of the error of type E that `action` throws; empty if it throws none.
-template <class E, class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const E& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// Stands for a full disk: files of this process cannot grow beyond `bytes`.
 class FileSizeLimit {
@@ -66,10 +56,10 @@ class OutputErrors : public testing::Test {
 
 TEST_F(OutputErrors, MissingFolderIsNamed) {
   const std::string histories =
-      message_of<ResourceError>([&] { HistoryFile(folder_ / "absent", channels_); });
+      samples::refusal<ResourceError>([&] { HistoryFile(folder_ / "absent", channels_); });
   EXPECT_NE(histories.find("absent/run.h5: No such file or directory"), std::string::npos) << histories;
   const std::string text =
-      message_of<ResourceError>([&] { write_text_file(folder_ / "absent/a.json", "{}"); });
+      samples::refusal<ResourceError>([&] { write_text_file(folder_ / "absent/a.json", "{}"); });
   EXPECT_NE(text.find("absent/a.json"), std::string::npos) << text;
 }
 
@@ -79,7 +69,7 @@ TEST_F(OutputErrors, FolderWithoutPermissionIsNamed) {
   if (user == 0) {
     ASSERT_EQ(::seteuid(65534), 0);  // root may write everywhere, nobody may not
   }
-  const std::string message = message_of<ResourceError>([&] { HistoryFile(folder_, channels_); });
+  const std::string message = samples::refusal<ResourceError>([&] { HistoryFile(folder_, channels_); });
   ASSERT_EQ(::seteuid(user), 0);
   fs::permissions(folder_, fs::perms::owner_all);
   EXPECT_NE(message.find("run.h5: Permission denied"), std::string::npos) << message;
@@ -90,20 +80,21 @@ TEST_F(OutputErrors, AFileInPlaceOfAFolderIsNamed) {
   std::ofstream(place) << "mine";
   const std::string expected =
       fmt::format("cannot create {0}: a file of that name is there; remove or rename {0}", place.string());
-  EXPECT_EQ(message_of<ResourceError>([&] { create_folder(place); }), expected);
-  EXPECT_EQ(message_of<ResourceError>([&] { create_last_folder(place); }), expected);
+  EXPECT_EQ(samples::refusal<ResourceError>([&] { create_folder(place); }), expected);
+  EXPECT_EQ(samples::refusal<ResourceError>([&] { create_last_folder(place); }), expected);
 }
 
 TEST_F(OutputErrors, UnreadableHdf5IsAnInputError) {
-  const std::string absent = message_of<InputError>([&] { Hdf5File::open_to_read(folder_ / "a.h5"); });
+  const std::string absent = samples::refusal<InputError>([&] { Hdf5File::open_to_read(folder_ / "a.h5"); });
   EXPECT_NE(absent.find("a.h5: No such file or directory"), std::string::npos) << absent;
   write_text_file(folder_ / "text.h5", "not HDF5");
-  const std::string foreign = message_of<InputError>([&] { Hdf5File::open_to_read(folder_ / "text.h5"); });
+  const std::string foreign =
+      samples::refusal<InputError>([&] { Hdf5File::open_to_read(folder_ / "text.h5"); });
   EXPECT_NE(foreign.find("text.h5"), std::string::npos) << foreign;
 
   Hdf5File::create(folder_ / "empty.h5").close();
   const Hdf5File empty = Hdf5File::open_to_read(folder_ / "empty.h5");
-  const std::string dataset = message_of<InputError>([&] { empty.read<double>("/histories/time"); });
+  const std::string dataset = samples::refusal<InputError>([&] { empty.read<double>("/histories/time"); });
   EXPECT_NE(dataset.find("'/histories/time'"), std::string::npos) << dataset;
   EXPECT_NE(dataset.find("empty.h5"), std::string::npos) << dataset;
 }
@@ -115,7 +106,7 @@ std::string fill_disk(const fs::path& folder, const std::vector<Channel>& channe
   {
     HistoryFile histories(folder, channels);
     const FileSizeLimit limit(60'000);
-    message = message_of<ResourceError>([&] {
+    message = samples::refusal<ResourceError>([&] {
       for (int i = 0; i < 100'000; ++i) histories.append(std::array{scale * i / 3e5, scale / (i + 1)});
     });
     kept = histories.rows_written();
@@ -150,7 +141,7 @@ TEST_F(OutputErrors, AFileThatCannotBeReplacedStays) {
   std::string message;
   {
     const FileSizeLimit limit(1000);
-    message = message_of<ResourceError>([&] { write_text_file(path, std::string(5000, 'x')); });
+    message = samples::refusal<ResourceError>([&] { write_text_file(path, std::string(5000, 'x')); });
   }
   EXPECT_NE(message.find("summary.json"), std::string::npos) << message;
   EXPECT_NE(message.find("File too large"), std::string::npos) << message;

@@ -15,6 +15,7 @@
 #include "kernels/ties/body_tie.hpp"
 #include "kernels/ties/face_finder.hpp"
 #include "kernels/ties/tie.hpp"
+#include "tests/refusal.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
@@ -76,12 +77,7 @@ Mesh block_on_body(int elements, int body_elements, double gap) {
 }
 
 std::string refusal(Mesh mesh, const BodyTieSpec& spec) {
-  try {
-    tie_body(mesh, spec);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return samples::refusal<InputError>([&] { tie_body(mesh, spec); });
 }
 
 /// The finer side follows, and a field that is linear in space passes the tie.

@@ -14,24 +14,17 @@
 #include "core/geometry/touching.hpp"
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "core/millimetre.hpp"
 #include "io/scene/schema.hpp"
+#include "tests/curve_kinks.hpp"
 #include "tests/section_quality.hpp"
 
 namespace tread {
 namespace {
 
+using samples::largest_kink;
 using samples::smallest_square;
 using samples::worst_quality;
-
-constexpr double mm = 1e-3;
-
-double largest_kink(const PlaneCurve& curve) {
-  double kink = 0;
-  for (const double s : curve.joints(0, curve.length()))
-    kink =
-        std::max(kink, std::abs(cross(curve.at(s, Side::before).tangent, curve.at(s, Side::after).tangent)));
-  return kink;
-}
 
 double z_at(const PlaneCurve& curve, double y) {
   return curve.at(curve.at_x(y * mm)).position.y / mm;

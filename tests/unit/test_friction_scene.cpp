@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "drivers/engine/model/model.hpp"
 #include "io/scene/schema.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
@@ -27,17 +28,11 @@ std::string file(const std::string& name, const std::string& text) {
 
 /// The message with which the scene is refused; empty if it is accepted.
 std::string refusal(const std::vector<std::string>& overrides) {
-  try {
-    samples::tyre_scene(overrides);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return samples::refusal<InputError>([&] { samples::tyre_scene(overrides); });
 }
 
 void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(message.find(part), std::string::npos) << part << "\nnot in: " << message;
+  for (const std::string& part : parts) samples::expect_part(message, part);
 }
 
 std::vector<std::string> table(const std::string& text) {

@@ -12,6 +12,7 @@
 #include "drivers/engine/start/step_limit.hpp"
 #include "kernels/connectors/guided_bore.hpp"
 #include "tests/measured.hpp"
+#include "tests/refusal.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -25,12 +26,7 @@ Scene guided_scene(const std::vector<std::string>& more) {
 }
 
 std::string refusal(const std::vector<std::string>& more) {
-  try {
-    guided_scene(more);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return samples::refusal<InputError>([&] { guided_scene(more); });
 }
 
 double dot_fields(const AlignedVector<double>& a, const AlignedVector<double>& b) {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/text/json.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -107,13 +108,8 @@ TEST(Json, RecordsNameWhatLiesDeeperByItsPath) {
 }
 
 TEST(Json, BrokenTextsAreRefusedWithPlaceAndReason) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      parse_json(text, "summary.json");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [](const std::string& text) {
+    return samples::refusal<InputError>([&] { parse_json(text, "summary.json"); });
   };
   EXPECT_EQ(message("[1]"), "summary.json: no JSON object: it is a JSON array");
   EXPECT_NE(message("{\n\"a\": nul}").find("summary.json: no JSON object: parse error at line 2, column 9"),
@@ -130,14 +126,9 @@ TEST(Json, FilesAreRefusedWithTheirPath) {
   const samples::TemporaryFolder folder;
   const std::filesystem::path path = folder.path / "summary.json";
   std::ofstream(path) << "{\"a\": 1";
-  try {
-    read_json(path);
-    ADD_FAILURE();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_TRUE(message.starts_with(path.string() + ": no JSON object: ")) << message;
-    EXPECT_NE(message.find("`tread run` writes the file anew"), std::string::npos) << message;
-  }
+  const std::string message = samples::refusal<InputError>([&] { read_json(path); });
+  EXPECT_TRUE(message.starts_with(path.string() + ": no JSON object: ")) << message;
+  samples::expect_part(message, "`tread run` writes the file anew");
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "kernels/element/element.hpp"
 #include "tests/exported_deck.hpp"
+#include "tests/refusal.hpp"
 
 namespace tread {
 namespace {
@@ -293,12 +294,7 @@ TEST(KeywordDeck, StatesFallingFrictionAndPlasticity) {
 
 TEST(KeywordDeck, RefusesWhatItWouldFalsify) {
   const auto message_of = [](const Model& model) {
-    try {
-      exported(model);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return samples::refusal<InputError>([&] { exported(model); });
   };
   const auto message = [&](const Scene& scene) { return message_of(Model(scene)); };
   EXPECT_NE(message(tyre({"wheel.bore=guided"})).find("wheel.bore"), std::string::npos);

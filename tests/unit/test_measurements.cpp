@@ -14,6 +14,7 @@
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/results/measured_rows.hpp"
+#include "tests/refusal.hpp"
 #include "tests/swept_samples.hpp"
 #include "tests/tyre_scene.hpp"
 
@@ -184,14 +185,11 @@ TEST(Measurements, StressIsLargestBelowTheSurface) {
 }
 
 TEST(Measurements, AProbeOutsideItsBodyIsRefused) {
-  const auto error_of = [](const std::vector<std::string>& overrides) -> std::string {
-    try {
+  const auto error_of = [](const std::vector<std::string>& overrides) {
+    return samples::refusal<InputError>([&] {
       const Model model(samples::tyre_scene(with(overrides)));
       const Measurements measurements(model, 0);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   EXPECT_NE(error_of({"probe.p.depth=70 mm"}).find("probe.p: 70 mm below"), std::string::npos);
   for (const char* below : {"60.002", "60.5", "61"})
@@ -212,13 +210,8 @@ TEST(Measurements, AProbeOutsideItsBodyIsRefused) {
 }
 
 TEST(ProbeKeys, AreCheckedAgainstTheScene) {
-  const auto problem = [](const std::vector<std::string>& overrides) -> std::string {
-    try {
-      samples::tyre_scene(overrides);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto problem = [](const std::vector<std::string>& overrides) {
+    return samples::refusal<InputError>([&] { samples::tyre_scene(overrides); });
   };
   EXPECT_NE(problem({"probe.p.x=0.4 m"}).find("is not on the rail"), std::string::npos);
   EXPECT_NE(problem({"probe.p.body=wheel"}).find("has stress alone"), std::string::npos);

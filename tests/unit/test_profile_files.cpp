@@ -12,13 +12,12 @@
 
 #include "core/error.hpp"
 #include "core/geometry/built_in_profiles.hpp"
+#include "core/millimetre.hpp"
 #include "io/profiles/column_profile.hpp"
 #include "io/scene/profile_file.hpp"
 
 namespace tread {
 namespace {
-
-constexpr double mm = 1e-3;
 
 struct Points {
   std::vector<double> y, z;  // [mm]

@@ -12,20 +12,14 @@
 #include "core/geometry/plane_curve.hpp"
 #include "core/geometry/point_scatter.hpp"
 #include "core/geometry/profiles.hpp"
+#include "core/millimetre.hpp"
+#include "tests/curve_kinks.hpp"
+#include "tests/refusal.hpp"
 
 namespace tread {
 namespace {
 
-constexpr double mm = 1e-3;
-
-/// Largest angle between the tangents on the two sides of a joint [rad].
-double largest_kink(const PlaneCurve& curve, double from, double to) {
-  double kink = 0;
-  for (const double s : curve.joints(from, to))
-    kink =
-        std::max(kink, std::abs(cross(curve.at(s, Side::before).tangent, curve.at(s, Side::after).tangent)));
-  return kink;
-}
+using samples::largest_kink;
 
 /// Expects that tangents are unit vectors and agree with central differences of the position away from
 /// joints.
@@ -75,8 +69,8 @@ TEST(Cn60, SectionConstantsAreThoseOfTheStandard) {
 
 TEST(Cn60, CurvesAreTangentContinuousAndConsistent) {
   const RailProfile rail = cn60();
-  EXPECT_LT(largest_kink(rail.running, 0, rail.running.length()), 1e-12);
-  EXPECT_LT(largest_kink(rail.lower, 0, rail.lower.length()), 1e-12);
+  EXPECT_LT(largest_kink(rail.running), 1e-12);
+  EXPECT_LT(largest_kink(rail.lower), 1e-12);
   expect_consistent(rail.running);
   expect_consistent(rail.lower);
   const CurvePoint crown = rail.running.at(rail.running.at_x(0));
@@ -209,16 +203,10 @@ TEST(RailWithHead, RecoversTheProfileItWasSampledFrom) {
 }
 
 TEST(RailWithHead, SuggestsTheShiftInPlaceOfTheStatedOne) {
-  const auto [y, z] = sampled_head(cn60(), {5 * mm, 0});
-  try {
-    rail_with_head(y, z, cn60(), 2 * mm);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("its own middle is y = 5.0 mm, which rail.profile_shift = \"-3.0 mm\" corrects"),
-              std::string::npos)
-        << error.what();
-  }
+  const auto head = sampled_head(cn60(), {5 * mm, 0});
+  const auto shifted = [&] { rail_with_head(head.first, head.second, cn60(), 2 * mm); };
+  samples::expect_part(samples::refusal<InputError>(shifted),
+                       "its own middle is y = 5.0 mm, which rail.profile_shift = \"-3.0 mm\" corrects");
 }
 
 TEST(Crowned, IsTheCircleItSays) {

@@ -14,6 +14,7 @@
 #include "drivers/report/report_references.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -62,12 +63,7 @@ class ReferenceFile : public testing::Test {
     return names;
   }
   std::string refusal(const std::string& text) const {
-    try {
-      read(text, scene("smooth.toml"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return samples::refusal<InputError>([&] { read(text, scene("smooth.toml")); });
   }
   samples::TemporaryFolder folder_;
   fs::path path_ = folder_.path / "book.toml";

@@ -18,6 +18,7 @@
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "tests/program.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
@@ -213,17 +214,12 @@ TEST(Supports, AShiftedOneTakesItsSleeperAlong) {
 }
 
 TEST(SupportKeys, AreCheckedAgainstTheFastenings) {
-  const auto problem = [](std::vector<std::string> more) -> std::string {
+  const auto problem = [](std::vector<std::string> more) {
     more.emplace_back("support.one.fastening=2");
-    try {
-      samples::tyre_scene(ballasted(more));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return samples::refusal<InputError>([&] { samples::tyre_scene(ballasted(more)); });
   };
   const auto says = [&](const std::vector<std::string>& more, const char* text) {
-    EXPECT_NE(problem(more).find(text), std::string::npos) << problem(more);
+    samples::expect_part(problem(more), text);
   };
   EXPECT_EQ(problem({}), "");
   says({"support.far.fastening=4"}, "there is no fastening 4");
@@ -275,12 +271,8 @@ TEST(SupportFile, NamesWhatIsWrong) {
                        const std::vector<std::string>& more = {}) {
     std::vector<std::string> keys = more;
     keys.push_back("fastenings.supports=" + support_file(text));
-    try {
-      samples::tyre_scene(ballasted(keys));
-      ADD_FAILURE() << text;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
+    samples::expect_part(samples::refusal<InputError>([&] { samples::tyre_scene(ballasted(keys)); }),
+                         expected);
   };
   says("1 0.5\n", ":1: the columns have no names");
   says("", "expected a row of numbers");
@@ -309,13 +301,8 @@ TEST(SupportFile, NamesWhatIsWrong) {
 }
 
 TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
-  const auto problem = [](const std::vector<std::string>& more) -> std::string {
-    try {
-      samples::tyre_scene(ballasted(more));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto problem = [](const std::vector<std::string>& more) {
+    return samples::refusal<InputError>([&] { samples::tyre_scene(ballasted(more)); });
   };
   EXPECT_EQ(problem({}), "");
   EXPECT_NE(problem({"sleepers.width=0.7 m"}).find("neighbouring sleepers overlap"), std::string::npos);

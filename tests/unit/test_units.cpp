@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/units.hpp"
+#include "tests/refusal.hpp"
 
 namespace tread {
 namespace {
@@ -71,12 +72,7 @@ struct Refusal {
 };
 
 std::string length_error(const char* text) {
-  try {
-    parse_quantity(text, kLength);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return samples::refusal<InputError>([&] { parse_quantity(text, kLength); });
 }
 
 TEST(Units, RefusalsNameTheReasonAndAnExample) {
@@ -152,12 +148,8 @@ TEST(Units, RatiosAndNumbersAreStrict) {
   }
   for (const char* text : {"1/0", "1/2/3", "a/b", "/", "1/2:3"})
     EXPECT_THROW(parse_ratio(text), InputError) << text;
-  try {
-    parse_ratio("1/40");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "\"1/40\" is not a number; write 1:40 or 0.025");
-  }
+  EXPECT_EQ(samples::refusal<InputError>([] { parse_ratio("1/40"); }),
+            "\"1/40\" is not a number; write 1:40 or 0.025");
 }
 
 TEST(Units, FormatShowsTheUnitAskedFor) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "drivers/verify/verification.hpp"
+#include "tests/refusal.hpp"
 
 namespace tread {
 namespace {
@@ -16,12 +17,7 @@ std::string refusal(const std::string& name, const std::vector<std::string>& ove
   options.names = {name};
   options.overrides = overrides;
   options.quiet = true;
-  try {
-    verify(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return samples::refusal<InputError>([&] { verify(options); });
 }
 
 TEST(VerifyInputs, ThatLeaveNoPlaceOfTheProfilesAreRefused) {

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "kernels/blocks/internal_force.hpp"
+#include "tests/field_differences.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
 namespace {
 
 using samples::for_each_node;
+using samples::largest;
 
 struct Case {
   const char* name;
@@ -34,12 +36,6 @@ Vec3 strained(const Vec3& x, double angle) {
                           x.y + 4e-3 * x.x - 2e-3 * x.y + 1e-3 * x.z,
                           x.z - 3e-3 * x.x + 2e-3 * x.y + 5e-3 * x.z};
   return stretched + samples::rotation(stretched, angle) - x;
-}
-
-double largest(const AlignedVector<double>& field) {
-  double value = 0;
-  for (const double x : field) value = std::max(value, std::abs(x));
-  return value;
 }
 
 /// Moment of nodal forces about the origin, with arms to the positions displaced by u [N m].

@@ -20,6 +20,7 @@
 #include "io/report/markup.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
+#include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -91,27 +92,16 @@ TransientRun thinned(const TransientRun& run, std::size_t every) {
   return thin;
 }
 
-/// Message of the InputError that a call throws; empty without one.
-template <class Call>
-std::string refusal_of(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Calibration, RefusesSamplesTooFarApart) {
   const MultibodyModel model = model_of(300, 80);
   const TransientRun run = run_with(1);
-  EXPECT_EQ(refusal_of([&] { map_dot(model, thinned(run, 10)); }), "");
-  EXPECT_EQ(refusal_of([&] { calibrate(model, thinned(run, 10), kQuick); }), "");
+  EXPECT_EQ(samples::refusal<InputError>([&] { map_dot(model, thinned(run, 10)); }), "");
+  EXPECT_EQ(samples::refusal<InputError>([&] { calibrate(model, thinned(run, 10), kQuick); }), "");
   for (const std::size_t every : {std::size_t{16}, std::size_t{100}, run.x.size() - 1}) {
     const TransientRun few = thinned(run, every);
-    const std::string dot = refusal_of([&] { map_dot(model, few); });
+    const std::string dot = samples::refusal<InputError>([&] { map_dot(model, few); });
     EXPECT_TRUE(dot.starts_with("--dots made/up: its histories.csv has ")) << every << dot;
-    const std::string fit = refusal_of([&] { calibrate(model, few, kQuick); });
+    const std::string fit = samples::refusal<InputError>([&] { calibrate(model, few, kQuick); });
     EXPECT_TRUE(fit.starts_with("--calibrate made/up: its histories.csv has ")) << every << fit;
     EXPECT_NE(fit.find("a shorter output.history_interval"), std::string::npos) << fit;
   }
@@ -149,8 +139,9 @@ TEST(Calibration, RefusesARunWhoseFileHasChanged) {
   const TransientRun run = read_transient_run(folder.path);
   const MultibodyModel model = multibody_model(run.scene, BeamTheory::euler);
   const std::string file = "corrugation.file is a .txt file of checksum ";
-  EXPECT_NE(refusal_of([&] { calibrate(model, run, kQuick); }).find(file), std::string::npos);
-  EXPECT_NE(refusal_of([&] { map_dot(model, run); }).find(file), std::string::npos);
+  EXPECT_NE(samples::refusal<InputError>([&] { calibrate(model, run, kQuick); }).find(file),
+            std::string::npos);
+  EXPECT_NE(samples::refusal<InputError>([&] { map_dot(model, run); }).find(file), std::string::npos);
 }
 
 TEST(Calibration, RefusesAnotherTrackOrVehicle) {
@@ -175,12 +166,8 @@ TEST(Calibration, RefusesAnotherWheelContactOrSurface) {
             "the surfaces' depths differ by up to 1 mm"}}) {
     TransientRun run = run_with(1);
     change(run.scene);
-    try {
-      calibrate(model_of(300, 80), run, kQuick);
-      ADD_FAILURE() << text;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-    }
+    const auto fit = [&] { calibrate(model_of(300, 80), run, kQuick); };
+    samples::expect_part(samples::refusal<InputError>(fit), text);
   }
 }
 
@@ -221,12 +208,9 @@ TEST(ResponseMap, AxesWavesAndDotsAreReadBeforeAnyPassage) {
     options.step = "1 s";  // the first passage refuses it
     options.quiet = true;
     const std::string text = "[scene]\nbased_on = \"highspeed-slab-2014\"\n[motion]\nspeed = \"300 km/h\"\n";
-    try {
+    return samples::refusal<InputError>([&] {
       run_multibody_study(resolve_scene(SceneSource{"test", text + corrugation, {}}), options);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    });
   };
   const char* const sine = "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.1 mm\"\n";
   const std::string speed = "speed=200:300:50km/h";

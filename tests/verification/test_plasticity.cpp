@@ -17,7 +17,9 @@
 #include "drivers/engine/start/step_limit.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/material/laws.hpp"
+#include "tests/field_differences.hpp"
 #include "tests/measured.hpp"
+#include "tests/refusal.hpp"
 #include "tests/state_copies.hpp"
 #include "tests/swept_samples.hpp"
 
@@ -110,8 +112,9 @@ void expect_uniaxial(Mesh& mesh, int axis, double turn, bool finite_rotation, do
         for (int c = 0; c < 3; ++c) {
           const auto value = static_cast<double>(f[index(dof(block.base + block.slot(node, station), c))]);
           double& largest = around[index(node)] == 4 ? inside : outside;
-          largest = std::max(largest, std::abs(value));
+          largest = std::max(largest, samples::magnitude(value));
         }
+    EXPECT_TRUE(std::isfinite(outside));
     EXPECT_LT(inside, 10 * tolerance * (outside + kYield * 1e-6));
     const DeformationEnergy energy = force.energy(0, u.data(), &state);
     if (volume == 0) volume = energy.strain / at.stored();
@@ -157,13 +160,7 @@ TEST(PlasticElements, WithoutYieldTheForceIsThatOfTheLinearLaw) {
     AlignedVector<double> law(u.size());
     force.internal_force(u.data(), v.data(), linear.data());
     force.internal_force({u.data(), v.data(), law.data(), nullptr, &state});
-    double largest = 0;
-    double difference = 0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      largest = std::max(largest, std::abs(linear[i]));
-      difference = std::max(difference, std::abs(linear[i] - law[i]));
-    }
-    EXPECT_LT(difference, 1e-12 * largest) << set;
+    EXPECT_LT(samples::relative_difference(law, linear), 1e-12) << set;
     const DeformationEnergy expected = force.energy(0, u.data());
     const DeformationEnergy energy = force.energy(0, u.data(), &state);
     EXPECT_NEAR(energy.strain, expected.strain, 1e-12 * expected.strain);
@@ -423,12 +420,7 @@ TEST(PlasticElements, ValuesWithoutMeaningAreRefused) {
     Scene scene = wheel_on_block(6e-3);
     scene.materials["steel"] = yielding(yield);
     scene.materials["steel"].kinematic_hardening = hardening;
-    try {
-      const Model model(scene);
-      return std::string();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
+    return samples::refusal<InputError>([&] { const Model model(scene); });
   };
   EXPECT_EQ(refusal(1e6, 0), "");
   EXPECT_NE(refusal(0, 0).find("yield_stress must be above 0 Pa"), std::string::npos);

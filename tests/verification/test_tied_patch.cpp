@@ -8,11 +8,14 @@
 #include "core/mesh/structured.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/ties/tie.hpp"
+#include "tests/field_differences.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
 namespace {
+
+using samples::largest;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -69,12 +72,6 @@ bool on_surface(const Tied& t, int block, int node, int station) {
   return p < -0.02 + 1e-9 || p > 0.03 - 1e-9 || std::abs(q - s.q[index(free_path.front())]) < 1e-9;
 }
 
-double largest(const AlignedVector<double>& field) {
-  double value = 0;
-  for (const double x : field) value = std::max(value, std::abs(x));
-  return value;
-}
-
 TEST(TiedPatch, LinearFieldLeavesNoForceInside) {
   const auto field = [](const Vec3& x) {
     return Vec3{3e-4 * x.x - 1e-4 * x.y + 2e-4 * x.z, 4e-4 * x.x - 2e-4 * x.y + 1e-4 * x.z,
@@ -97,7 +94,8 @@ TEST(TiedPatch, LinearFieldLeavesNoForceInside) {
           if (on_surface(t, b, node, station)) continue;
           ++inside;
           for (int c = 0; c < 3; ++c)
-            worst = std::max(worst, std::abs(f[index(dof(block.base + block.slot(node, station), c))]));
+            worst =
+                std::max(worst, samples::magnitude(f[index(dof(block.base + block.slot(node, station), c))]));
         }
     }
     EXPECT_GT(inside, 50);
