@@ -2,13 +2,11 @@
 // Contracts of functions, checked in debug builds (preset `debug`) and absent from release builds.
 //
 //   TREAD_EXPECT(condition)  precondition: demand on a function's arguments
-//   TREAD_ENSURE(condition)  postcondition: promise of a function's results
 //
 // A broken contract is a defect of the program, not of its input: the process names the place and aborts.
 
 #ifdef NDEBUG
 #define TREAD_EXPECT(condition) static_cast<void>(sizeof(!(condition)))
-#define TREAD_ENSURE(condition) static_cast<void>(sizeof(!(condition)))
 #else
 #include <cstdio>
 #include <cstdlib>
@@ -16,15 +14,13 @@
 namespace tread {
 
 /// Names the broken contract and aborts.
-[[noreturn]] inline void break_contract(const char* kind, const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "%s:%d: %s does not hold: %s\n", file, line, kind, condition);
+[[noreturn]] inline void break_contract(const char* condition, const char* file, int line) {
+  std::fprintf(stderr, "%s:%d: expectation does not hold: %s\n", file, line, condition);
   std::abort();
 }
 
 }  // namespace tread
 
-#define TREAD_CONTRACT(kind, condition) \
-  ((condition) ? static_cast<void>(0) : ::tread::break_contract(kind, #condition, __FILE__, __LINE__))
-#define TREAD_EXPECT(condition) TREAD_CONTRACT("expectation", condition)
-#define TREAD_ENSURE(condition) TREAD_CONTRACT("promise", condition)
+#define TREAD_EXPECT(condition) \
+  ((condition) ? static_cast<void>(0) : ::tread::break_contract(#condition, __FILE__, __LINE__))
 #endif

@@ -207,7 +207,7 @@ RailSections make_rail_sections(const RailProfile& profile, double inclination, 
   if (!(std::abs(inclination) <= 0.2))
     throw InputError(fmt::format("rail inclination {} is outside -0.2 ... 0.2 (1:40 is 0.025)", inclination));
   const CoarseTie tie = coarse_tie(profile, size);
-  RailSections sections = {make_cap(profile, tie, size), make_base(profile, tie, size), kRailTieDepth};
+  RailSections sections = {make_cap(profile, tie, size), make_base(profile, tie, size)};
   for (Section* section : {&sections.cap, &sections.base}) rotate(*section, std::atan(inclination));
   validate(sections.cap, "rail head");
   validate(sections.base, "rail base");

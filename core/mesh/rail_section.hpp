@@ -14,7 +14,6 @@ namespace tread {
 struct RailSections {
   Section cap;
   Section base;
-  double tie_depth = 0;  ///< depth of the tie below the crown, in the rail's own axes [m]
 };
 
 /// Sections of a rail, turned by `inclination`. size.coarse: elements of the base, 6 ... 10 mm; at least two

@@ -61,6 +61,15 @@ std::optional<QuadPlace> place_in_quad(const Section& section, int quad, double 
   return place;
 }
 
+std::array<double, 2> quad_middle(const Section& section, int quad) {
+  double p = 0, q = 0;
+  for (const int node : section.quads[static_cast<std::size_t>(quad)]) {
+    p += section.p[static_cast<std::size_t>(node)];
+    q += section.q[static_cast<std::size_t>(node)];
+  }
+  return {p / 4, q / 4};
+}
+
 double quad_area(const Section& section, int quad) {
   const auto& nodes = section.quads[static_cast<std::size_t>(quad)];
   return 0.5 * (corner_jacobian(section, nodes, 0) + corner_jacobian(section, nodes, 2));
@@ -89,14 +98,9 @@ void validate(const Section& section, const std::string& name) {
     std::sort(key.begin(), key.end());
     if (!seen.insert(key).second) report(fmt::format("quad {} repeats an earlier one", quad));
     if (quad_quality(section, quad) <= 1e-3) {
-      const auto middle = [&](const std::vector<double>& coordinate) {
-        double sum = 0;
-        for (const int node : section.quads[static_cast<std::size_t>(quad)])
-          sum += coordinate[static_cast<std::size_t>(node)];
-        return 1e3 * sum / 4;
-      };
+      const std::array<double, 2> middle = quad_middle(section, quad);
       report(fmt::format("quad {} is inverted, flat or not convex about ({:.1f}, {:.1f}) mm", quad,
-                         middle(section.p), middle(section.q)));
+                         1e3 * middle[0], 1e3 * middle[1]));
     }
   }
   for (std::size_t node = 0; node < used.size(); ++node)

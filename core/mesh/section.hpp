@@ -49,6 +49,9 @@ struct QuadPlace {
 /// converge.
 std::optional<QuadPlace> place_in_quad(const Section& section, int quad, double p, double q);
 
+/// Mean (p, q) of the quad's nodes [m].
+std::array<double, 2> quad_middle(const Section& section, int quad);
+
 /// Area enclosed by the quad [m2], positive if counter-clockwise.
 double quad_area(const Section& section, int quad);
 

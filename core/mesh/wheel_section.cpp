@@ -217,8 +217,7 @@ WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape&
   for (double& x : tie) x += middle;
 
   WheelSections sections = {make_tread(profile.surface, tie, size), make_disc(lines, shape, web, size),
-                            make_axle(lines, middle, shape, kAxleRatio * size.coarse),
-                            shape.diameter / 2 - kTreadTieDepth, kHubTieRadius};
+                            make_axle(lines, middle, shape, kAxleRatio * size.coarse)};
   translate(sections.tread, {-shape.lateral_offset, shape.diameter / 2});
   translate(sections.disc, {middle - shape.lateral_offset, 0});
   translate(sections.axle, {-shape.lateral_offset, 0});

@@ -17,8 +17,6 @@ struct WheelSections {
   Section tread;
   Section disc;
   Section axle;
-  double tread_tie_radius = 0;  ///< [m]
-  double axle_tie_radius = 0;   ///< [m]
 };
 
 /// Sections of a half wheelset. size.coarse: elements of the disc, 10 ... 15 mm; those of the axle are 2.3

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "drivers/cli/exit_codes.hpp"
 #include "drivers/process/version.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -35,11 +34,6 @@ std::string roff(const std::string& text) {
       out += c;
   }
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
-  return text;
 }
 
 std::string value_text(const OptionEntry& option) {
@@ -96,7 +90,7 @@ std::string exit_and_environment(bool of_program) {
 std::string page(const CommandEntry& command, const CommandEntry* parent) {
   const std::string name = command.name("-");
   std::string text =
-      fmt::format(".TH {} 1 \"\" \"tread {}\" \"tread manual\"\n", roff(upper(name)), program_version());
+      fmt::format(".TH {} 1 \"\" \"tread {}\" \"tread manual\"\n", roff(upper_case(name)), program_version());
   text +=
       fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}", roff(name), roff(command.text), synopsis(command));
   text += arguments(command);

@@ -22,10 +22,6 @@ void mark_track(const Scene& scene, const Corrugation& corrugation, const Range&
   if (!figure.positions.empty()) figure.caption += "Vertical lines: fastenings. ";
 }
 
-void mark_track(const Model& model, const Range& range, Figure& figure) {
-  if (model.contact) mark_track(model.scene, model.contact->corrugation(), range, figure);
-}
-
 double signed_friction(double f, double longitudinal_force, double load) {
   return longitudinal_force < -0.01 * f * load ? -f : f;
 }
@@ -43,16 +39,30 @@ std::vector<double> abscissae_of(const Model& model, const RunResults& r) {
 
 Range whole_way(const Model& model, const RunResults& r) {
   const std::vector<double> all = abscissae_of(model, r);
-  return {all.front(), all.back()};
+  const auto [first, last] = std::ranges::minmax_element(all);
+  return {*first, *last};
 }
 
-Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
+Figure over_the_rail(std::string name, std::string title, const Scene& scene, const Corrugation& corrugation,
+                     const Range& range) {
   Figure figure;
   figure.name = std::move(name);
   figure.title = std::move(title);
-  figure.x_label = over_time(model) ? "Time [ms]" : "Position of the wheel [m]";
-  figure.x_range = whole_way(model, r);
-  if (!over_time(model)) mark_track(model, *figure.x_range, figure);
+  figure.x_label = "Position of the wheel [m]";
+  figure.x_range = range;
+  mark_track(scene, corrugation, range, figure);
+  return figure;
+}
+
+Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
+  const Range way = whole_way(model, r);
+  if (!over_time(model))
+    return over_the_rail(std::move(name), std::move(title), model.scene, model.contact->corrugation(), way);
+  Figure figure;
+  figure.name = std::move(name);
+  figure.title = std::move(title);
+  figure.x_label = "Time [ms]";
+  figure.x_range = way;
   return figure;
 }
 
@@ -93,7 +103,8 @@ void add_surface_panel(const ShownSurfaces& surfaces, double height, Figure& fig
 }
 
 Range stretch_in_sight(const Model& model, const Range& way) {
-  return stretch_in_sight(model.scene, model.contact->corrugation(), way);
+  const Range seen = stretch_in_sight(model.scene, model.contact->corrugation(), way);
+  return seen[0] < seen[1] ? seen : way;
 }
 
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way) {

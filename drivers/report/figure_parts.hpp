@@ -16,7 +16,6 @@ Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker>
 
 /// Bands and fastenings that every chart over the way shows within `range`.
 void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure);
-void mark_track(const Model& model, const Range& range, Figure& figure);
 
 /// The values times a factor, as a figure shows them.
 std::vector<double> scaled(std::vector<double> values, double factor);
@@ -39,6 +38,7 @@ void add_surface_panel(const ShownSurfaces& surfaces, double height, Figure& fig
 
 /// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);
+/// The same, or the whole way where that lies elsewhere.
 Range stretch_in_sight(const Model& model, const Range& way);
 
 /// Friction on the side of a mean F_L [N]: f, or -f under brakes beyond a hundredth of f times the load [-].
@@ -50,8 +50,12 @@ bool over_time(const Model& model);
 /// Abscissae of a run's charts, by sample: the wheel's position [m], or the time where over_time() [ms].
 std::vector<double> abscissae_of(const Model& model, const RunResults& results);
 
-/// Places or times of a run, first and last.
+/// Least and largest place or time of a run; brakes may turn the wheel back.
 Range whole_way(const Model& model, const RunResults& results);
+
+/// A figure over the wheel's positions in `range` [m], without panels.
+Figure over_the_rail(std::string name, std::string title, const Scene& scene, const Corrugation& corrugation,
+                     const Range& range);
 
 /// A figure of that name over the whole way, without panels.
 Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& results);

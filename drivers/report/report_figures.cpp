@@ -74,13 +74,10 @@ Figure force_figure(const Model& model, const RunResults& r) {
   const Corrugation& corrugation = model.contact->corrugation();
   const double f = signed_friction_of(model, r);
   const std::string limit = f < 0 ? "−f F_N" : "f F_N";
-  Figure figure;
-  figure.name = "forces";
-  figure.title =
-      corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
-  figure.x_label = "Position of the wheel [m]";
-  figure.x_range = stretch_in_sight(model, whole_way(model, r));
-  mark_track(model, *figure.x_range, figure);
+  Figure figure = over_the_rail(
+      "forces",
+      corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation",
+      scene, corrugation, stretch_in_sight(model, whole_way(model, r)));
   figure.panels.push_back(
       panel("Force [kN]",
             {curve(limit, model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
@@ -100,11 +97,7 @@ Figure passage_figure(const Model& model, const RunResults& r) {
       panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
             {{1e-3 * model.wheel_load(), "static"}}, 200));
   figure.panels.push_back(panel("F_L / F_N",
-                                {curve("F_L / F_N", model, r,
-                                       [](const Sample& s) {
-                                         return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force
-                                                                     : 0.0;
-                                       })},
+                                {curve("F_L / F_N", model, r, [](const Sample& s) { return s.traction(); })},
                                 {{f, f < 0 ? "−f" : "f"}}, 150));
   figure.panels.push_back(panel("Lateral [kN]",
                                 {curve("lateral force on the wheel, to the field side", model, r,

@@ -59,14 +59,11 @@ std::vector<Layer> stick_and_slip(const PatchAxes& surface, const PatchSample& s
 
 Figure surface_figure(const Model& model, const RunResults& r) {
   const SurfaceResults& s = r.surface;
-  Figure figure;
-  figure.name = "surface";
-  figure.title = "Largest stresses and frictional work of the passage on the patch's longitudinal axis";
-  figure.x_label = "Position on the rail [m]";
   const Range way = {s.axis.front().x, s.axis.back().x};
-  figure.x_range = stretch_in_sight(model, way);
-  if ((*figure.x_range)[0] >= (*figure.x_range)[1]) figure.x_range = way;
-  mark_track(model, *figure.x_range, figure);
+  Figure figure = over_the_rail(
+      "surface", "Largest stresses and frictional work of the passage on the patch's longitudinal axis",
+      model.scene, model.contact->corrugation(), stretch_in_sight(model, way));
+  figure.x_label = "Position on the rail [m]";
   figure.panels.push_back(panel(
       "Stress [MPa]",
       {along_axis("largest pressure", s, [](const AxisNode& n) { return 1e-6 * n.max_pressure; }),

@@ -49,8 +49,7 @@ CaseResult extremes_speed(const VerifyInputs& inputs, const ProgressText& progre
     judge_ride(at, model, run, result.findings);
     figure.panels[0].series.push_back(
         history(at, run, [](const Sample& s) { return 1e-3 * s.vertical_force; }));
-    figure.panels[1].series.push_back(
-        history(at, run, [](const Sample& s) { return s.longitudinal_force / s.vertical_force; }));
+    figure.panels[1].series.push_back(history(at, run, [](const Sample& s) { return s.traction(); }));
   }
   result.figures.push_back(figure);
   return result;

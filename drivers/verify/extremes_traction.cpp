@@ -111,9 +111,8 @@ void beyond_the_limit(TyreOnBlock bodies, double speed, double times, CaseResult
   run.judge(at, findings);
   result.figures[0].panels[0].series.push_back(
       history(at, run.results, [&](const Sample& s) { return s.wheel_spin * radius; }));
-  result.figures[0].panels[1].series.push_back(history(at, run.results, [&](const Sample& s) {
-    return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
-  }));
+  result.figures[0].panels[1].series.push_back(
+      history(at, run.results, [](const Sample& s) { return s.traction(); }));
 }
 
 CaseResult extremes_traction(const VerifyInputs& inputs, const ProgressText& progress) {

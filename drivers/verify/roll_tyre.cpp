@@ -48,8 +48,8 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
     rolled.samples.push_back(sample);
     if (rolled.samples.size() % 100 == 0)
       progress(fmt::format("x {:.1f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}, creepage {:.4f} %",
-                           1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
-                           sample.longitudinal_force / sample.vertical_force, 100 * sample.creepage_mean));
+                           1e3 * sample.wheel_x, 1e-3 * sample.vertical_force, sample.traction(),
+                           100 * sample.creepage_mean));
   });
 
   const double first = bodies.roll - observed;
@@ -100,7 +100,7 @@ Figure creepage_figure(const Rolled& rolled, double reference) {
     ours.x.push_back(1e3 * sample.wheel_x);
     ours.y.push_back(100 * (sample.creepage_mean - rolled.free_creepage));
     traction.x.push_back(1e3 * sample.wheel_x);
-    traction.y.push_back(sample.longitudinal_force / sample.vertical_force);
+    traction.y.push_back(sample.traction());
   }
   Figure figure;
   figure.title = "Creepage on the way to steady rolling";

@@ -96,8 +96,7 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
     if (transient.places.empty()) transient.free_creepage = sample.creepage_mean;
     const double way = simulation.wheel().origin.x;
     const double angle = simulation.wheel().angle + simulation.wheel_motion().rotation;
-    transient.places.push_back(
-        {way, angle * bodies.radius - way, sample.longitudinal_force / sample.vertical_force});
+    transient.places.push_back({way, angle * bodies.radius - way, sample.traction()});
     transient.residual = std::abs(sample.energy.residual) / sample.energy.frictional_work;
     if (transient.places.size() % 200 == 0)
       progress(fmt::format("x {:.2f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}", 1e3 * way,

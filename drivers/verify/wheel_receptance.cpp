@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/raised_cosine.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/start/step_limit.hpp"
 #include "drivers/verify/cases.hpp"
@@ -37,21 +38,6 @@ struct Direction3 {
 };
 constexpr std::array<Direction3, 3> kDirections = {
     {{"along the rail", 0}, {"across the rail", 1}, {"vertical", 2}}};
-
-/// Raised cosine over -half ... half with the integral 1.
-double raised_cosine(double x, double half) {
-  if (std::abs(x) >= half) return 0;
-  const double c = std::cos(0.5 * std::numbers::pi * x / half);
-  return c * c / half;
-}
-
-/// The n-th cosine coefficient of a raised cosine over angles -half ... half.
-double cosine_coefficient(int n, double half) {
-  const double a = n * half;
-  if (a == 0) return 1;
-  const double pole = 1 - std::pow(a / std::numbers::pi, 2);
-  return std::abs(pole) < 1e-9 ? 0.5 : std::sin(a) / a / pole;
-}
 
 /// Laplace variables: the motion fades by e^-(decay t), so that an undamped body needs no more than a finite
 /// time.
@@ -175,7 +161,7 @@ std::array<ReceptanceCurve, 3> receptance_of_harmonics(const Model& model, const
   out.fill(ReceptanceCurve(s.size()));
   for (int waves = 0; waves <= most; ++waves) {
     constexpr int kSlow = 12;  // waves up to which a harmonic resonates in the band
-    const double share = std::pow(cosine_coefficient(waves, half), 2);
+    const double share = std::pow(raised_cosine_coefficient(waves, half), 2);
     const auto receptances = solid.receptances(waves, loads, waves <= kSlow ? 40 : 12);
     for (std::size_t d = 0; d < 3; ++d)
       for (std::size_t i = 0; i < s.size(); ++i) out[d][i] += share * receptances[d].at(s[i]);

@@ -11,8 +11,9 @@ namespace tread {
 /// Without the white space at either end.
 std::string_view trimmed(std::string_view text);
 
-/// Lower-case copy of ASCII text.
+/// Lower-case and upper-case copies of ASCII text.
 std::string lower_case(std::string_view text);
+std::string upper_case(std::string_view text);
 
 /// Bytes of the UTF-8 character that begins at `at`; 0 where none does.
 std::size_t utf8_bytes(std::string_view text, std::size_t at);

@@ -30,14 +30,6 @@ std::int32_t index_of(std::vector<std::string>& names, const std::string& name) 
   return index;
 }
 
-/// Distance of a quad's centre from the axis [m].
-double mean_radius(const Section& section, int quad) {
-  double sum = 0;
-  for (const int node : section.quads[static_cast<std::size_t>(quad)])
-    sum += section.q[static_cast<std::size_t>(node)];
-  return sum / 4;
-}
-
 /// Starts the file in memory: HDF5 recovers badly from a full disk.
 Hdf5File begin(const Hdf5Attributes& attributes) {
   Hdf5File file = Hdf5File::create_in_memory();
@@ -102,7 +94,7 @@ void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
       const double pitch = block.pitch(cell.station);
       material = &block.material(cell.quad, block.tiles[static_cast<std::size_t>(tile)].pitch_class);
       pitches.push_back(block.sweep == Sweep::extruded ? pitch
-                                                       : pitch * mean_radius(block.section, cell.quad));
+                                                       : pitch * quad_middle(block.section, cell.quad)[1]);
     }
     materials.push_back(index_of(material_names, material->name));
   }

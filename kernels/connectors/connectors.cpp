@@ -119,17 +119,21 @@ Turned space_angle(double c, double s, double frame_c, double frame_s) {
 
 }  // namespace
 
-Vec3 Journal::displacement(ConstNodeField u, const BodyFrame& frame) const {
+Vec3 Journal::vector_sum(ConstNodeField field, const BodyFrame& frame, double Node::*factor) const {
   const double fc = std::cos(frame.angle);
   const double fs = std::sin(frame.angle);
   Vec3 sum;
   for (const Node& node : nodes_) {
     const auto [c, s] = space_angle(node.cosine, node.sine, fc, fs);
-    const double t = u[dof(node.slot, 0)];
-    const double r = u[dof(node.slot, 2)];
-    sum += node.weight * Vec3{-c * t - s * r, u[dof(node.slot, 1)], s * t - c * r};
+    const double t = field[dof(node.slot, 0)];
+    const double r = field[dof(node.slot, 2)];
+    sum += node.*factor * Vec3{-c * t - s * r, field[dof(node.slot, 1)], s * t - c * r};
   }
   return sum;
+}
+
+Vec3 Journal::displacement(ConstNodeField u, const BodyFrame& frame) const {
+  return vector_sum(u, frame, &Node::weight);
 }
 
 Vec3 Journal::velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
@@ -137,16 +141,7 @@ Vec3 Journal::velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& fram
 }
 
 Vec3 Journal::acceleration(ConstNodeField force, const BodyFrame& frame) const {
-  const double fc = std::cos(frame.angle);
-  const double fs = std::sin(frame.angle);
-  Vec3 sum;
-  for (const Node& node : nodes_) {
-    const auto [c, s] = space_angle(node.cosine, node.sine, fc, fs);
-    const double t = force[dof(node.slot, 0)];
-    const double r = force[dof(node.slot, 2)];
-    sum += node.per_mass * Vec3{-c * t - s * r, force[dof(node.slot, 1)], s * t - c * r};
-  }
-  return sum;
+  return vector_sum(force, frame, &Node::per_mass);
 }
 
 void Journal::add(NodeField field, const BodyFrame& frame, const Vec3& load) const {

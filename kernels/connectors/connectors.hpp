@@ -108,6 +108,9 @@ class Journal {
     double per_mass;      ///< weight over the node's mass [1/kg]
     double cosine, sine;  ///< of the node's own angle
   };
+  /// Sum of the nodes' vectors, Cartesian, times a factor of each.
+  Vec3 vector_sum(ConstNodeField field, const BodyFrame& frame, double Node::*factor) const;
+
   std::vector<Node> nodes_;
   double mass_ = 0;
 };

@@ -296,25 +296,4 @@ std::complex<double> TrackBeam::receptance(double x_force, double x, double freq
   return sum;
 }
 
-/// Sylvester's law of inertia: K - omega^2 M has as many negative pivots as there are modes below omega.
-int TrackBeam::modes_below(double omega) const {
-  BandMatrix<double> factor = stiffness_;
-  factor.add(-omega * omega, mass_);
-  factor.factorise();
-  int count = 0;
-  for (int i = 0; i < factor.size(); ++i) count += factor.at(i, i) < 0 ? 1 : 0;
-  return count;
-}
-
-double TrackBeam::eigenfrequency(int n) const {
-  double low = 0;
-  double high = 1;
-  while (modes_below(high) <= n) high *= 2;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (modes_below(middle) <= n ? low : high) = middle;
-  }
-  return 0.5 * (low + high) / (2 * std::numbers::pi);
-}
-
 }  // namespace tread

@@ -58,8 +58,8 @@ class TrackBeam {
  public:
   static constexpr int kOfBeam = 3;  ///< unknowns of a node without those of a sleeper
   /// From `left` on, elements no longer than `element` [m].
-  TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
-            double element = 0.01, bool sleepers = false);
+  TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends, double element,
+            bool sleepers);
 
   /// A spring-damper to ground at x [N/m], [N s/m].
   void support(double x, double stiffness, double damping);
@@ -99,9 +99,6 @@ class TrackBeam {
   /// w(x) of the axis over a harmonic force on it at x_force. [m/N]
   std::complex<double> receptance(double x_force, double x, double frequency) const;
 
-  /// The n-th undamped eigenfrequency, n from 0, rigid motion included. [Hz]
-  double eigenfrequency(int n) const;
-
   const BandMatrix<double>& stiffness() const { return stiffness_; }
   const BandMatrix<double>& damping() const { return damping_; }
   const BandMatrix<double>& mass() const { return mass_; }
@@ -128,7 +125,6 @@ class TrackBeam {
   /// From one place to another, counted in elements.
   void hold_stretch(double first, double last);
   void join_to_sleeper(double x, double stiffness, double damping);
-  int modes_below(double omega) const;
 
   double left_, length_, pitch_;
   int per_node_;  ///< unknowns of a node

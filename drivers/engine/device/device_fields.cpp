@@ -85,7 +85,7 @@ void DeviceFields<Real, U>::changed() {
   marches_.forget();
   if (device_contact_) device_contact_->forget();
   host_whole_ = true;
-  device_whole_ = false;
+  device_whole_ = host_moves_ = false;
   lag_step_ = 0;
 }
 

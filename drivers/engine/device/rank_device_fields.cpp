@@ -137,7 +137,6 @@ void RankDeviceFields<Real, U>::send() {
   copy(Way::to_device, this->own_stretches(), true);
   copy(Way::to_device, this->halo(), true);
   device_whole_ = true;
-  host_moves_ = false;
 }
 
 /// The views hold the values of the own tiles. They hold the motion of the halo anyway.

@@ -39,7 +39,7 @@ class RankDeviceFields final : public RankFields<Real, U> {
   }
   void changed() override {
     host_whole_ = true;
-    device_whole_ = false;
+    device_whole_ = host_moves_ = false;
     lag_step_ = 0;
   }
 

@@ -25,6 +25,9 @@ struct Sample {
   double hammer_force = 0;         ///< on the rail, downwards [N]
   double hammer_displacement = 0;  ///< of the struck point since the start, downwards [m]
   EnergyLedger energy;
+
+  /// F_L / F_N [-]; 0 without contact.
+  double traction() const { return vertical_force > 0 ? longitudinal_force / vertical_force : 0.0; }
 };
 
 }  // namespace tread

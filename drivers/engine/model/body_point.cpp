@@ -40,20 +40,12 @@ FoundQuad find_quad(const Mesh& mesh, const std::vector<int>& blocks, double p, 
   return found;
 }
 
-/// Mean q of a quad's nodes [m].
-double middle_q(const Section& section, int quad) {
-  double sum = 0;
-  for (const int node : section.quads[static_cast<std::size_t>(quad)])
-    sum += section.q[static_cast<std::size_t>(node)];
-  return sum / 4;
-}
-
 /// Direction from the running surface into the body along q: -1 or 1.
 double inwards(const Section& section) {
   const SurfaceEdge& edge = section.surface.front();
   const double surface = 0.5 * (section.q[static_cast<std::size_t>(edge.node[0])] +
                                 section.q[static_cast<std::size_t>(edge.node[1])]);
-  return middle_q(section, edge.quad) < surface ? -1 : 1;
+  return quad_middle(section, edge.quad)[1] < surface ? -1 : 1;
 }
 
 /// Depths between which the section is body [m].
@@ -157,7 +149,7 @@ std::vector<QuadBelow> quads_below(const Mesh& mesh, const std::vector<int>& blo
   for (const int block : blocks) {
     const Section& section = mesh.blocks[static_cast<std::size_t>(block)].section;
     for (int quad = 0; quad < static_cast<int>(section.quads.size()); ++quad) {
-      const double middle = middle_q(section, quad);
+      const double middle = quad_middle(section, quad)[1];
       const double depth = std::abs(middle - surface);
       if (depth > deepest.depth) continue;
       const std::optional<QuadPlace> place = place_in_quad(section, quad, deepest.y, middle);

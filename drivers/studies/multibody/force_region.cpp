@@ -4,22 +4,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/math/raised_cosine.hpp"
 #include "kernels/half_space/half_space.hpp"
 
 namespace tread {
 
 double ForceRegion::density(double y) const {
-  const double x = y - centre;
-  if (std::abs(x) >= half) return 0;
-  const double c = std::cos(0.5 * std::numbers::pi * x / half);
-  return c * c / half;
+  return raised_cosine(y - centre, half);
 }
 
 double ForceRegion::coefficient(double wave_number) const {
-  const double a = wave_number * half;
-  if (a == 0) return 1;
-  const double pole = 1 - std::pow(a / std::numbers::pi, 2);
-  return std::abs(pole) < 1e-9 ? 0.5 : std::sin(a) / a / pole;
+  return raised_cosine_coefficient(wave_number, half);
 }
 
 double ForceRegion::last_wave_number() const {

@@ -27,13 +27,7 @@ Series curve(std::string label, const std::vector<MultibodySample>& samples, dou
 }
 
 Figure over_the_way(std::string name, std::string title, const MultibodyModel& model, const Range& range) {
-  Figure figure;
-  figure.name = std::move(name);
-  figure.title = std::move(title);
-  figure.x_label = "Position of the wheel [m]";
-  figure.x_range = range;
-  mark_track(model.scene, model.corrugation, range, figure);
-  return figure;
+  return over_the_rail(std::move(name), std::move(title), model.scene, model.corrugation, range);
 }
 
 Range whole_way(const MultibodyOutcome& o) {
