@@ -142,8 +142,10 @@ TEST(ImportedMesh, TakesNumbersOfPartsBeforeNames) {
   MeshFaults faults;
   mesh_of(twins, "a.k", {1e-3, {"Right end"}, 1}, faults);
   ASSERT_EQ(faults.list().size(), 1U);
-  EXPECT_EQ(faults.list().front().message,
-            "there are 2 parts \"Right end\", numbers 3 and 7; state the number");
+  EXPECT_EQ(
+      faults.list().front().message,
+      "there are 2 parts \"Right end\", numbers 3 and 7; state the number of one, or a set of elements that "
+      "holds all");
   EXPECT_EQ(sound({"a.k", twins}, {1e-3, {"3"}, 1}).mesh.elements.size(), 4U);
   const std::string sets = renamed(
       abaqus_file(),
