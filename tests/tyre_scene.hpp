@@ -60,4 +60,22 @@ inline Scene tyre_with_maxwell_branches(std::vector<std::string> overrides) {
   return tyre_scene(overrides);
 }
 
+/// Overrides that lay its rail on three fastenings with sleepers of concrete, and those of `more`.
+inline std::vector<std::string> on_sleepers(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = {"rail.support=fastenings",
+                                        "rail.height=150 mm",
+                                        "rail.length=1.5 m",
+                                        "rail.origin=0.75 m",
+                                        "fastenings.count=3",
+                                        "fastenings.spacing=0.6 m",
+                                        "fastenings.first=0.15 m",
+                                        "fastenings.pad_width=40 mm",
+                                        "material.concrete.youngs_modulus=35 GPa",
+                                        "material.concrete.poissons_ratio=0.2",
+                                        "material.concrete.density=2400 kg/m3",
+                                        "sleepers.stiffness=40 MN/m"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
 }  // namespace tread::samples

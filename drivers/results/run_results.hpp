@@ -79,7 +79,7 @@ struct RunResults {
   ForceSpectrum spectrum;           ///< of F_N there
   Statistics longitudinal_force;    ///< [N]
   double traction_coefficient = 0;  ///< mean F_L / mean F_N over the steady stretch [-]
-  /// Of its second half less that of its first [-]; nothing where a half holds no sample.
+  /// Traction of its second half less that of its first [-]; nothing where a half holds no sample.
   std::optional<double> traction_drift;
   double creepage = 0;                     ///< mean of 28 points of the tread there [-]
   std::optional<double> creepage_of_work;  ///< of the frictional work there, if F_L counts [-]

@@ -85,7 +85,7 @@ std::string balance_warning(const Model& model, const RunResults& r) {
 
 /// Key that moves the steady stretch on, "a later solution_zone.start": it ends with the run, ahead of the
 /// corrugation or with the zone.
-std::string later_stretch(const Model& model, const RunResults& r) {
+const char* later_stretch(const Model& model, const RunResults& r) {
   if (r.reached <= r.steady_last) return "a longer motion.duration";
   return model.contact->corrugation().smooth() ? "a later solution_zone.start" : "a later corrugation.start";
 }

@@ -98,4 +98,9 @@ void remove_figures(const fs::path& folder) {
   fs::remove(folder, ignored);
 }
 
+void replace_report(const fs::path& path, const Report& report) {
+  remove_figures(path.parent_path() / kFigureFolder);
+  write_report(path, report);
+}
+
 }  // namespace tread

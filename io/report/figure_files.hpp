@@ -27,4 +27,7 @@ std::vector<std::string> figures_in(const std::filesystem::path& folder);
 /// Removes the files of these figures, and the folder if nothing else is in it.
 void remove_figures(const std::filesystem::path& folder);
 
+/// write_report() in place of an earlier one in the folder, whose figures go.
+void replace_report(const std::filesystem::path& path, const Report& report);
+
 }  // namespace tread

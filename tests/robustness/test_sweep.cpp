@@ -39,24 +39,14 @@ class Sweep : public testing::Test {
     return study("bar-wave.toml", "[set]\nmotion.duration = \"20 us\"\n" + grid);
   }
   /// Tyres that roll for some seconds.
-  fs::path tyres() const {
-    return study("tyre.toml", R"([set]
-scene.element_size = "8 mm"
-motion.duration = "1.5 ms"
-output.progress_interval = "10 ms"
-[grid]
-motion.traction.mu = [0.1, 0.3]
-)");
-  }
+  fs::path tyres() const { return tyres_of("8 mm", "1.5 ms", "0.1, 0.3"); }
   /// One tyre that rolls far longer than a test looks at it.
-  fs::path endless_tyre() const {
-    return study("tyre.toml", R"([set]
-scene.element_size = "5 mm"
-motion.duration = "5 ms"
-output.progress_interval = "10 ms"
-[grid]
-motion.traction.mu = [0.1]
-)");
+  fs::path endless_tyre() const { return tyres_of("5 mm", "5 ms", "0.1"); }
+  fs::path tyres_of(const char* size, const char* duration, const char* tractions) const {
+    return study("tyre.toml",
+                 fmt::format("[set]\nscene.element_size = \"{}\"\nmotion.duration = \"{}\"\n"
+                             "output.progress_interval = \"10 ms\"\n[grid]\nmotion.traction.mu = [{}]\n",
+                             size, duration, tractions));
   }
   fs::path executable(const std::string& name, const std::string& lines) const {
     fs::create_directories((program_.folder / name).parent_path());

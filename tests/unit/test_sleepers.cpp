@@ -87,22 +87,8 @@ TEST(BeamOnSleepers, ASleeperTakesItsShareOfTheDeflection) {
 }
 
 std::vector<std::string> ballasted(std::vector<std::string> more = {}) {
-  std::vector<std::string> overrides = {"scene.element_size=8 mm",
-                                        "rail.support=fastenings",
-                                        "rail.height=150 mm",
-                                        "rail.length=1.5 m",
-                                        "rail.origin=0.75 m",
-                                        "fastenings.count=3",
-                                        "fastenings.spacing=0.6 m",
-                                        "fastenings.first=0.15 m",
-                                        "fastenings.pad_width=40 mm",
-                                        "fastenings.damping=1 kN s/m",
-                                        "material.concrete.youngs_modulus=35 GPa",
-                                        "material.concrete.poissons_ratio=0.2",
-                                        "material.concrete.density=2400 kg/m3",
-                                        "sleepers.stiffness=40 MN/m"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return overrides;
+  more.insert(more.begin(), {"scene.element_size=8 mm", "fastenings.damping=1 kN s/m"});
+  return samples::on_sleepers(more);
 }
 
 /// Static forces of the beds, along x, upwards [N].

@@ -112,15 +112,10 @@ Series kilonewtons(std::string label, const std::vector<double>& x, const std::v
 
 Figure comparison_figure(const Outcome& o, const std::string& force) {
   const CurveComparison& c = o.found;
-  Figure figure;
-  figure.name = "compare";
-  figure.title = force + ": run and curve";
-  figure.x_label = "Position of the wheel [m]";
-  figure.x_range = {c.x.front(), c.x.back()};
-  if (const std::optional<CorrugationSpec>& spec = o.run.scene.corrugation)
-    mark_track(o.run.scene, corrugation_of(*spec, spec->centre.value_or(0)), *figure.x_range, figure);
-  else
-    mark_track(o.run.scene, Corrugation(), *figure.x_range, figure);
+  const std::optional<CorrugationSpec>& spec = o.run.scene.corrugation;
+  Figure figure = over_the_rail("compare", force + ": run and curve", o.run.scene,
+                                spec ? corrugation_of(*spec, spec->centre.value_or(0)) : Corrugation(),
+                                {c.x.front(), c.x.back()});
   figure.panels.push_back(panel(
       force + " [kN]",
       {kilonewtons("run", c.x, c.run, Stroke::solid), kilonewtons("curve", c.x, c.curve, Stroke::dashed)}, {},

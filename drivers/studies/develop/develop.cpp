@@ -27,8 +27,7 @@ void leave(const DevelopmentFolder& folder, const Development& development, cons
   write_text_file(place / "spectra.csv", spectra_csv(development));
   write_text_file(place / "growth.csv", growth_csv(development));
   write_text_file(place / "development.json", development_json(development));
-  remove_figures(place / kFigureFolder);
-  write_report(place / "report.html", development_report(development, resolved, origin));
+  replace_report(place / "report.html", development_report(development, resolved, origin));
 }
 
 std::string passage_text(const Development& development) {

@@ -148,8 +148,7 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
     std::filesystem::remove(folder / "effects.csv", ignored);
   else
     write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
-  remove_figures(folder / kFigureFolder);
-  write_report(folder / "report.html", dial_report(outcome, plan, options.common.origin));
+  replace_report(folder / "report.html", dial_report(outcome, plan, options.common.origin));
   if (options.common.json)
     fmt::print("{}", dial_json(outcome.table));
   else

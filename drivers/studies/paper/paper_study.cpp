@@ -115,8 +115,7 @@ std::optional<Error> reproduce_paper(const PaperOptions& options) {
     write_text_file(plan.folder / "results.md",
                     markdown(number_table(runs)) + "\n" + markdown(verdict_table(runs)));
     write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, finished));
-    remove_figures(plan.folder / kFigureFolder);
-    write_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.origin));
+    replace_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.origin));
     if (common.json)
       fmt::print("{}", sweep_json(plan, finished));
     else

@@ -15,8 +15,7 @@ std::optional<Error> sweep(const SweepOptions& options) {
   return run_study(study, options.common, [&](const StudyPlan& plan) {
     const std::vector<FinishedRun> runs = finished_runs(plan);
     write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, runs));
-    remove_figures(plan.folder / kFigureFolder);
-    write_report(plan.folder / "report.html", sweep_report(plan, runs, options.common.origin));
+    replace_report(plan.folder / "report.html", sweep_report(plan, runs, options.common.origin));
     if (options.common.json)
       fmt::print("{}", sweep_json(plan, runs));
     else
