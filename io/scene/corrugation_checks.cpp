@@ -16,10 +16,15 @@ void check_roughness(const CorrugationSpec& roughness, Require require) {
   const double shortest = roughness.shortest, longest = roughness.longest, length = roughness.length;
   constexpr double kRounding = 1e-5;  // of the wave that a message suggests
   const auto in_mm = [](double value) { return format_quantity(value, "mm"); };
-  require(shortest < longest, {"corrugation.shortest", "corrugation.longest"},
-          "the roughness' shortest wave is not shorter than its longest");
+  require(
+      shortest < longest, {"corrugation.shortest", "corrugation.longest"},
+      fmt::format("the roughness' shortest wave, {}, is not shorter than its longest, {}; state a smaller "
+                  "corrugation.shortest or a larger corrugation.longest",
+                  in_mm(shortest), in_mm(longest)));
   require(longest <= length + kLengthTolerance, {"corrugation.longest", "corrugation.length"},
-          "the roughness' longest wave does not fit into its length");
+          fmt::format("the roughness' longest wave, {}, does not fit into its length, {}; state a smaller "
+                      "corrugation.longest or a larger corrugation.length",
+                      in_mm(longest), in_mm(length)));
   require(
       length / shortest <= kMostRoughnessWaves * (1 + kRounding),
       {"corrugation.shortest", "corrugation.length"},
@@ -48,7 +53,10 @@ void check_corrugation(const Scene& scene, Require require) {
   if (corrugation.kind == "sine")
     require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
             {"corrugation.wavelength", "corrugation.length"},
-            "not one wave fits into the corrugation's length");
+            fmt::format("not one wave of {} fits into the corrugation's length of {}; state a smaller "
+                        "corrugation.wavelength or a larger corrugation.length",
+                        format_quantity(corrugation.wavelength, "mm"),
+                        format_quantity(corrugation.length, "mm")));
   if (corrugation.kind == "random") check_roughness(corrugation, require);
   if (table && corrugation.table_x.empty()) return;
   const double first = corrugation.start + (table ? corrugation.table_x.front() : 0);
@@ -62,11 +70,12 @@ void check_corrugation(const Scene& scene, Require require) {
   const ZoneSpec zone = scene.solution_zone();
   require(!on_rail || inside(zone.start, zone.end()),
           {keys[0], keys[1], "solution_zone.start", "solution_zone.length"},
-          fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, zone.start,
-                      zone.end()));
+          fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m; move one of them, or widen "
+                      "the zone",
+                      extent, zone.start, zone.end()));
   require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
-          fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
-                      rail.length - rail.origin));
+          fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m; move it, or lengthen the rail", extent,
+                      -rail.origin, rail.length - rail.origin));
 }
 
 }  // namespace tread

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -15,7 +14,7 @@
 #include "io/scene/rail_reach.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
-#include "io/scene/surface_file.hpp"
+#include "io/scene/surface_checks.hpp"
 #include "io/scene/wheel_checks.hpp"
 #include "io/scene/zone_checks.hpp"
 
@@ -43,16 +42,18 @@ class Checker {
     check_bodies(scene_, others);
     if (scene_.motion) check_motion(*scene_.motion);
     if (scene_.rail && scene_.corrugation) check_corrugation(scene_, others);
-    for (const auto& [name, surface] : scene_.surfaces)
-      check_surface(std::string(kSurfaceTables) + name, surface);
+    check_surfaces(scene_, others);
     if (scene_.rail && scene_.pulse) {
       require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
-              "the pulse is longer than the bar");
+              fmt::format("the pulse, {}, is longer than the bar, {}; state a smaller pulse.length",
+                          format_quantity(scene_.pulse->length, "mm"),
+                          format_quantity(scene_.rail->length, "mm")));
     }
     if (scene_.rail && scene_.hammer)
       check_on_rail(*scene_.rail, scene_.hammer->position, {"hammer.position", "rail.length", "rail.origin"},
-                    "the struck point");
-    for (const auto& [name, probe] : scene_.probes) check_probe(std::string(kProbeTables) + name, probe);
+                    "the struck point", others);
+    for (const auto& [name, probe] : scene_.probes)
+      check_probe(std::string(kProbeTables) + name, probe, others);
     return std::move(problems_);
   }
 
@@ -89,19 +90,26 @@ class Checker {
     require(!s.load || s.wheel, {"load"}, "a load needs a wheel; add [wheel]");
     require(!s.vehicle || !s.load, {"load", "vehicle"},
             "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
-    require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
-    require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
+    require(!s.contact || (s.wheel && s.rail), {"contact"},
+            "contact needs [wheel] and [rail]; add both, or leave [contact] out");
+    require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]; add it");
     require(
         !s.vehicle || s.gravity > 0, {"scene.gravity", "vehicle"},
         "a vehicle without weight presses no wheel on the rail; state scene.gravity above 0, or [load] in "
         "place of [vehicle]");
     require(!s.contact || s.vehicle || s.load || s.gravity > 0, {"contact", "load"},
             "nothing presses the wheel on the rail; add [load] or [vehicle], or state scene.gravity");
-    require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
-    require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
+    require(!s.corrugation || s.contact, {"corrugation"},
+            "a corrugation needs [contact]; add it, or leave [corrugation] out");
+    require(!s.pulse || (s.rail && !s.wheel), {"pulse"},
+            "a pulse needs [rail] and no wheel; leave out [wheel] or [pulse]");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
-    require(!s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
-            "the shortest wave that wears is not shorter than the longest");
+    require(
+        !s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
+        fmt::format("the shortest wave that wears, {}, is not shorter than the longest, {}; state a smaller "
+                    "wear.shortest or a larger wear.longest",
+                    format_quantity(s.wear ? s.wear->shortest : 0, "mm"),
+                    format_quantity(s.wear ? s.wear->longest : 0, "mm")));
     require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
     require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
     require(!s.forks || (s.motion && s.contact), {"forks"}, "forks need [motion] and [contact]");
@@ -179,7 +187,9 @@ class Checker {
 
   void check_slab(const SlabSpec& slab) {
     require(slab.gap < slab.pitch, {"slab.gap", "slab.pitch"},
-            "the gap is not shorter than the pitch of slab and gap together");
+            fmt::format("the gap, {}, is not shorter than the pitch of slab and gap together, {}; state a "
+                        "smaller slab.gap or a larger slab.pitch",
+                        format_quantity(slab.gap, "mm"), format_quantity(slab.pitch, "mm")));
     const std::vector<std::string> names = {slab.material, slab.gap_material, slab.mortar_material};
     if (!std::all_of(names.begin(), names.end(), [&](const std::string& name) { return knows(name); }))
       return;
@@ -220,9 +230,15 @@ class Checker {
   void check_rail(const RailSpec& rail) {
     require(rail.head_material.empty() || rail.profile != "box", {"rail.head_material", "rail.profile"},
             "a box has no head; state rail.material");
-    require(rail.origin <= rail.length, {"rail.origin", "rail.length"}, "x = 0 lies beyond the rail's end");
-    require(rail.crown_radius == 0 || rail.width < 2 * rail.crown_radius, {"rail.width", "rail.crown_radius"},
-            "the box is wider than its running surface's arc");
+    require(rail.origin <= rail.length, {"rail.origin", "rail.length"},
+            fmt::format("x = 0 lies {} from the rail's left end, beyond its right one at {}; state a smaller "
+                        "rail.origin or a larger rail.length",
+                        format_quantity(rail.origin, "m"), format_quantity(rail.length, "m")));
+    require(
+        rail.crown_radius == 0 || rail.width < 2 * rail.crown_radius, {"rail.width", "rail.crown_radius"},
+        fmt::format("a box of {} is wider than its running surface's arc, {}; state a smaller rail.width, "
+                    "a larger rail.crown_radius, or rail.crown_radius = 0 for a flat one",
+                    format_quantity(rail.width, "mm"), format_quantity(2 * rail.crown_radius, "mm")));
     const bool fastened = rail.support == "fastenings";
     require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
             "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
@@ -237,8 +253,10 @@ class Checker {
     const double left = -rail.origin;
     const double right = rail.length - rail.origin;
     require(scene_.start_x() - left >= kRailEndMargin, {"motion.run_up", "rail.origin"},
-            fmt::format("the wheel starts at x = {:.6g} m; the rail lets it start from {:.6g} m on",
-                        scene_.start_x(), left + kRailEndMargin));
+            fmt::format("the wheel starts at x = {:.6g} m; the rail lets it start from {:.6g} m on: state a "
+                        "larger rail.origin{}",
+                        scene_.start_x(), left + kRailEndMargin,
+                        scene_.start_x() < 0 ? " or a smaller motion.run_up" : ""));
     if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
     const auto require_on_rail = [&](bool holds, double x, double end, const std::string& way_out) {
@@ -268,8 +286,11 @@ class Checker {
             "motion.traction.ramp above 0, or motion.traction.reversals = 0");
     require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},
             "a wheel that stands has no creepage; state motion.speed");
-    require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
-            "the state for forks is kept after the run's end");
+    require(
+        !scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
+        fmt::format("the state for forks would be kept at {:g} ms, after the run's end at {:g} ms; state a "
+                    "smaller forks.at or a longer motion.duration",
+                    1e3 * scene_.forks->at.value_or(0), 1e3 * motion.duration));
     if (scene_.wheel && knows(scene_.wheel->material)) check_rim(motion, scene_.wheel_material());
     require(motion.traction_mu.value_or(0) == 0 || scene_.contact, {"motion.traction.mu", "contact"},
             "a traction coefficient is a share of F_N and needs [contact]; state motion.traction.torque");
@@ -279,28 +300,16 @@ class Checker {
         std::abs(*motion.traction_mu) <= largest,
         {"motion.traction.mu",
          scene_.contact->friction_law == "table" ? "contact.friction_file" : "contact.friction"},
-        fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
+        fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}; "
+                    "state at most that, or more friction",
                     *motion.traction_mu, largest));
   }
 
-  void check_on_rail(const RailSpec& rail, double x, std::vector<std::string> keys, const char* point) {
-    check_on_rail(rail, x, x, std::move(keys), fmt::format("{}, x = {:.6g} m, is", point, x));
-  }
-
-  /// A part at least of what goes from `first` to `last`; `subject`: a sentence's begin, with its verb.
-  void check_on_rail(const RailSpec& rail, double first, double last, std::vector<std::string> keys,
-                     const std::string& subject) {
-    const double left = -rail.origin;
-    const double right = rail.length - rail.origin;
-    require(last >= left - kLengthTolerance && first <= right + kLengthTolerance, std::move(keys),
-            fmt::format("{} not on the rail, {:.6g} m to {:.6g} m", subject, left, right));
-  }
-
-  void check_probe(const std::string& table, const ProbeSpec& probe) {
+  void check_probe(const std::string& table, const ProbeSpec& probe, Require others) {
     require(scene_.motion.has_value(), {table}, "a probe needs [motion]: histories follow a motion");
     if (probe.body == "rail") {
       require(scene_.rail.has_value(), {table + ".body"}, "a point of the rail needs [rail]");
-      if (scene_.rail) check_on_rail(*scene_.rail, probe.x, {table + ".x", table}, "the probe");
+      if (scene_.rail) check_on_rail(*scene_.rail, probe.x, {table + ".x", table}, "the probe", others);
     } else if (probe.body == "wheel") {
       require(scene_.wheel.has_value(), {table + ".body"}, "a point of the wheel needs [wheel]");
       require(probe.quantity == "stress", {table + ".quantity", table},
@@ -310,7 +319,7 @@ class Checker {
       require(scene_.vehicle || scene_.load, {table + ".body"},
               "the axle box belongs to a journal that carries [vehicle] or [load]");
       require(!scene_.wheel || scene_.wheel->bore == "free", {table + ".body", "wheel.bore"},
-              "a guided bore has no axle box");
+              "a guided bore has no axle box; state wheel.bore = \"free\"");
       require(probe.quantity == "motion", {table + ".quantity", table},
               "the axle box has motion alone; state quantity = \"motion\"");
     }
@@ -328,42 +337,6 @@ class Checker {
                 "the wheel's rim moves at {:.4g} m/s: spinning alone strains it by {:.2g}, which is not the "
                 "small strain of linear elasticity; it must stay below {:.4g} m/s",
                 rim, rim * rim * material.density / material.youngs_modulus, fastest));
-  }
-
-  void check_surface(const std::string& table, const SurfaceSpec& surface) {
-    require(scene_.contact.has_value(), {table}, "depths of a running surface need [contact]");
-    if (!scene_.contact || !scene_.wheel || !scene_.rail) return;
-    if (surface.kind == "waves")
-      require(surface.wavelength <= surface.length + kLengthTolerance,
-              {table + ".wavelength", table + ".length"}, "not one wave fits into the length");
-    if (!surface.on_wheel()) {
-      if (surface.file_x.empty())
-        return check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
-      const double first = surface.at + surface.file_x.front(), last = surface.at + surface.file_x.back();
-      return check_on_rail(*scene_.rail, first, last, {table + ".at", table + ".file", table},
-                           fmt::format("the file's depths, x = {:.6g} m to {:.6g} m, are", first, last));
-    }
-    const double diameter = scene_.wheel->diameter;
-    const double turn = std::numbers::pi * diameter;
-    if (surface.kind == "flat")
-      require(surface.length <= 0.5 * diameter, {table + ".length", "wheel.diameter"},
-              fmt::format(
-                  "a chord of {:.4g} mm on a wheel of {:.4g} mm is no flat; state at most half the diameter",
-                  1e3 * surface.length, 1e3 * diameter));
-    if (surface.kind == "flat" && surface.length <= 0.5 * diameter) {
-      const double depth =
-          0.5 * (diameter - std::sqrt(diameter * diameter - surface.length * surface.length));
-      require(
-          depth <= kDeepestSurface, {table + ".length", "wheel.diameter"},
-          fmt::format("a chord of {:.4g} mm is {:.3g} mm deep on a wheel of {:.4g} mm; at most {:g} mm are "
-                      "possible: state a shorter one",
-                      1e3 * surface.length, 1e3 * depth, 1e3 * diameter, 1e3 * kDeepestSurface));
-    }
-    const bool measured = surface.kind == "profile" || surface.kind == "map";
-    if (surface.kind == "polygon" || (measured && surface.file_x.empty())) return;
-    const double length = measured ? surface.file_x.back() - surface.file_x.front() : surface.length;
-    require(length <= turn * (1 + 1e-6), {table + (measured ? ".file" : ".length"), table},
-            fmt::format("the depth is {:.6g} m long, the wheel's circumference {:.6g} m", length, turn));
   }
 
   const Scene& scene_;

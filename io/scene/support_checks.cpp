@@ -11,6 +11,7 @@
 
 #include "core/geometry/built_in_profiles.hpp"
 #include "io/scene/key.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 
@@ -21,19 +22,28 @@ void check_fastenings(const Scene& scene, const FasteningSpec& fastenings, Requi
   const double half = fastenings.pad_length / 2;
   const double last = fastenings.first + (fastenings.count - 1) * fastenings.spacing;
   require(fastenings.first - half >= -kLengthTolerance, {"fastenings.first", "fastenings.pad_length"},
-          "the first fastening's pad begins before the rail's left end");
+          fmt::format("the first fastening's pad begins {:.6g} m before the rail's left end; state a larger "
+                      "fastenings.first or a shorter fastenings.pad_length",
+                      half - fastenings.first));
   require(
       last + half <= rail.length + kLengthTolerance,
       {"fastenings.count", "fastenings.spacing", "fastenings.first", "fastenings.pad_length", "rail.length"},
-      fmt::format("the last fastening's pad ends at {:.6g} m, beyond the rail of {:.6g} m", last + half,
-                  rail.length));
-  require(fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
-          {"fastenings.pad_length", "fastenings.spacing"}, "the pads of neighbouring fastenings overlap");
+      fmt::format("the last fastening's pad ends at {:.6g} m, beyond the rail of {:.6g} m; state a smaller "
+                  "fastenings.count or a larger rail.length",
+                  last + half, rail.length));
+  require(
+      fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
+      {"fastenings.pad_length", "fastenings.spacing"},
+      fmt::format("the pads of neighbouring fastenings overlap: they are {} long, {} apart; state a shorter "
+                  "fastenings.pad_length or a larger fastenings.spacing",
+                  format_quantity(fastenings.pad_length, "mm"), format_quantity(fastenings.spacing, "mm")));
   require(fastenings.across.kind != "free" || scene.plane_strain, {"fastenings.across"},
           "nothing would hold the rail sideways; state \"held\", or \"elastic\" with "
           "fastenings.across_stiffness");
   require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
-          {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
+          {"fastenings.pad_width", "rail.width"},
+          fmt::format("the pad, {}, is wider than the rail, {}; state a smaller fastenings.pad_width",
+                      format_quantity(fastenings.pad_width, "mm"), format_quantity(rail.width, "mm")));
 }
 
 /// Half the width of the foot of a rail's section [m].
@@ -92,9 +102,15 @@ void check_widths(const Scene& scene, const FasteningSpec& fastenings, Require r
 void check_sleepers(const Scene& scene, const FasteningSpec& fastenings, Require require) {
   const SleeperSpec& sleepers = *scene.sleepers;
   require(fastenings.count == 1 || sleepers.width < fastenings.spacing,
-          {"sleepers.width", "fastenings.spacing"}, "neighbouring sleepers overlap");
+          {"sleepers.width", "fastenings.spacing"},
+          fmt::format("neighbouring sleepers overlap: they are {} wide, {} apart; state a smaller "
+                      "sleepers.width or a larger fastenings.spacing",
+                      format_quantity(sleepers.width, "mm"), format_quantity(fastenings.spacing, "mm")));
   require(fastenings.pad_length <= sleepers.width + kLengthTolerance,
-          {"sleepers.width", "fastenings.pad_length"}, "the pad is longer than the sleeper is wide");
+          {"sleepers.width", "fastenings.pad_length"},
+          fmt::format("the pad, {} long, is longer than the sleeper is wide, {}; state a shorter "
+                      "fastenings.pad_length or a larger sleepers.width",
+                      format_quantity(fastenings.pad_length, "mm"), format_quantity(sleepers.width, "mm")));
   const double inner = sleepers.offset - 0.5 * sleepers.length;
   const double outer = sleepers.offset + 0.5 * sleepers.length;
   const std::optional<RailFoot> foot = rail_foot(scene);
@@ -165,7 +181,9 @@ void check_altered(const Scene& scene, Require require) {
     std::vector<std::string> counted = altered.keys({"fastening"});
     counted.emplace_back("fastenings.count");
     require(support.fastening <= f.count, counted,
-            fmt::format("there is no fastening {}: they count {}", support.fastening, f.count));
+            fmt::format("there is no fastening {}: they count {}; state one of these, or a larger "
+                        "fastenings.count",
+                        support.fastening, f.count));
     const auto [first, fresh] = known.emplace(support.fastening, altered.place());
     require(
         fresh, altered.keys({"fastening"}),
@@ -184,7 +202,7 @@ void check_altered(const Scene& scene, Require require) {
   };
   const std::vector<std::string> keys = {"support", "fastenings.supports", "fastenings.count"};
   require(left([](const SupportSpec& s) { return s.stiffness > 0 && s.bed > 0; }), keys,
-          "nothing carries the rail: every support is broken or hangs");
+          "nothing carries the rail: every support is broken or hangs; leave one of them whole");
   require(left([](const SupportSpec& s) { return s.holds; }), keys,
           "nothing holds the rail's foot; state holds = true for one of them");
 }

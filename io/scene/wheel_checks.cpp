@@ -10,6 +10,7 @@
 #include "core/geometry/built_in_profiles.hpp"
 #include "core/mesh/wheel_shape.hpp"
 #include "core/travel.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 
@@ -38,12 +39,16 @@ void check_overhang(const Scene& scene, const WheelSpec& wheel, Require require)
 }
 
 void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
-  require(has_arc(wheel), {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
+  require(has_arc(wheel), {"wheel.profile", "wheel.shape"},
+          "a tyre has the profile arc or cylinder; state one of them, or wheel.shape = \"half_wheelset\"");
   require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
-          "the ring is thicker than the wheel's radius");
+          fmt::format("a ring of {} has no hole in a wheel of {}; state a smaller wheel.thickness",
+                      format_quantity(wheel.thickness, "mm"), format_quantity(wheel.diameter, "mm")));
   require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
           {"wheel.width", "wheel.crown_radius", "wheel.profile"},
-          "the ring is wider than the arc of its profile");
+          fmt::format("a ring of {} is wider than the arc of its profile, {}; state a smaller wheel.width, a "
+                      "larger wheel.crown_radius or wheel.profile = \"cylinder\"",
+                      format_quantity(wheel.width, "mm"), format_quantity(2 * wheel.crown_radius, "mm")));
   const bool guided = wheel.bore == "guided";
   require(!guided || !scene.vehicle, {"wheel.bore", "vehicle"},
           "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
@@ -76,7 +81,9 @@ void check_dimensions(const WheelSpec& wheel, Require require) {
 void check_half_wheelset(const WheelSpec& wheel, Require require) {
   check_dimensions(wheel, require);
   require(!has_arc(wheel), {"wheel.profile", "wheel.shape"},
-          fmt::format("a half wheelset has the profile {} or a file", fmt::join(kBuiltInWheels, ", ")));
+          fmt::format(
+              "a half wheelset has the profile {} or a file; state one of them, or wheel.shape = \"tyre\"",
+              fmt::join(kBuiltInWheels, ", ")));
   require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),
           {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
           "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "

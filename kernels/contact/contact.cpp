@@ -153,6 +153,15 @@ std::string Contact::why_no_room() const {
       options_.yields ? "; a small yield_stress of the material flattens a surface" : "");
 }
 
+void Contact::require_settled() const {
+  if (settled()) return;
+  throw NumericalError(fmt::format(
+      "contact: the tractions of the patch do not settle: in the last of {} iterations one still changes by "
+      "{:.2g} of the largest pressure, {:.0e} at most is taken; a larger contact.penetration_ratio (softer "
+      "penalty), a smaller coefficient of friction or a smaller motion.step_safety helps",
+      kMostIterations, unsettled_, kUnsettled));
+}
+
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(dt));
   if (steps_ != nullptr) {
@@ -160,6 +169,7 @@ void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double d
     return;
   }
   solver_.solve(points_, springs_, friction_, wheel, motion, dt);
+  unsettled_ = solver_.unsettled();
   for (ContactPoint& point : points_) {
     PointHistory& history = history_[static_cast<std::size_t>(point.history)];
     const PointWork work = settle_history(point, history, springs_, dt);
@@ -172,6 +182,7 @@ void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double d
 void Contact::take(const ContactOutcome& outcome) {
   frictional_work_ += outcome.frictional_work;
   contact_loss_ += outcome.contact_loss;
+  unsettled_ = outcome.unsettled;
   points_.clear();
   totals_ = {};
   totals_.force_on_rail = outcome.force_on_rail;

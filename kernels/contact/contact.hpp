@@ -22,6 +22,7 @@
 #include "kernels/contact/contact_totals.hpp"
 #include "kernels/contact/friction/friction_law.hpp"
 #include "kernels/contact/patch_nodes.hpp"
+#include "kernels/contact/patch_point_body.hpp"
 #include "kernels/contact/patch_solver.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
@@ -67,6 +68,7 @@ struct ContactOutcome {
   Vec3 force_on_rail;          ///< [N]
   double frictional_work = 0;  ///< of the step [J]
   double contact_loss = 0;     ///< of the step [J]
+  double unsettled = 0;        ///< PatchSolver::unsettled()
 };
 
 /// Owner of search, histories, solver and sums of the patch.
@@ -132,6 +134,10 @@ class Contact {
   }
   /// NumericalError where there is such a point.
   void require_room(const BodyFrame& wheel) const;
+  /// False where the iterations of the last resolve() ended far from a solution.
+  bool settled() const { return unsettled_ <= kUnsettled; }
+  /// NumericalError where settled() is false.
+  void require_settled() const;
 
   /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last
   /// [m/s].
@@ -206,6 +212,7 @@ class Contact {
   SurfaceFields* record_ = nullptr;
   double frictional_work_ = 0;
   double contact_loss_ = 0;
+  double unsettled_ = 0;  ///< PatchSolver::unsettled() of the last step
 };
 
 }  // namespace tread

@@ -20,6 +20,8 @@ inline constexpr int kWithMomentum = 60;
 inline constexpr int kWithoutMomentum = 20;
 inline constexpr int kMostIterations = 8 * (kWithMomentum + kWithoutMomentum);  ///< the last are without it
 inline constexpr double kTractionTolerance = 3e-7;  ///< last change of a traction / largest pressure
+/// The same, where the iterations end without it, from which on a step counts as not solved.
+inline constexpr double kUnsettled = 1e-4;
 /// Growth of a traction's change from which on the compliances are taken as too small.
 inline constexpr double kDivergence = 100;
 

@@ -105,7 +105,9 @@ void PatchSolver::iterate(const std::vector<ContactPoint>& points, const PointSp
   for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
     sum_impulses();
     const Progress progress = respond(points.size(), ball.next(springs, dt));
+    unsettled_ = 0;
     if (progress.change <= kTractionTolerance * progress.largest) break;
+    unsettled_ = progress.change / progress.largest;
     if (iterations_ == 1) first = progress.change;
     if (progress.change > kDivergence * first) {
       for (PointTile& tile : tiles_)

@@ -41,6 +41,9 @@ class PatchSolver {
   const std::vector<PatchCells::Node>& nodes() const { return cells_.nodes(); }
   /// Iterations of the last solution.
   int iterations() const { return iterations_; }
+  /// Last change of a traction over the largest pressure, if the iterations of the last solution ended beyond
+  /// kTractionTolerance; or 0.
+  double unsettled() const { return unsettled_; }
 
   std::int64_t bytes() const;
 
@@ -76,6 +79,7 @@ class PatchSolver {
   std::vector<PatchVector> change_;
   std::vector<double> mobility_;  ///< of the points: PatchCells::own_mobility
   int iterations_ = 0;
+  double unsettled_ = 0;
 };
 
 }  // namespace tread

@@ -110,7 +110,8 @@ inline constexpr int kMostTeams = 16;
 
 struct PatchCounts {
   int points, nodes;
-  int at_the_end;  ///< points under pressure at the end of the searched surface
+  int at_the_end;    ///< points under pressure at the end of the searched surface
+  double unsettled;  ///< PatchSolver::unsettled()
 };
 
 /// Input of the solution, and its arrays where the memory of the teams is too small. [PatchSolution]
@@ -146,6 +147,7 @@ struct PatchResult {
   double contact_loss;     ///< of the step [J]
   int points;              ///< of the patch
   int at_the_end;          ///< nonzero where one under pressure lies at the end of the searched surface
+  double unsettled;        ///< PatchSolver::unsettled()
 };
 
 struct ContactTask {

@@ -275,7 +275,7 @@ void DeviceContact::start(NodeField displacement, NodeField velocity) {
 void DeviceContact::resolve() {
   device_->finish(kRecordQueue);
   const PatchResult& result = *result_.data();
-  contact_->take({result.force_on_rail, result.frictional_work, result.contact_loss});
+  contact_->take({result.force_on_rail, result.frictional_work, result.contact_loss, result.unsettled});
   if (result.at_the_end != 0) fetch_points();
 }
 

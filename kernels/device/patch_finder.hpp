@@ -20,7 +20,7 @@ class PatchFinder {
       fill_supports();
       list_items();
     }
-    teams_.for_each(1, [&](int) { *task_.counts = {points_, links_.nodes(), 0}; });
+    teams_.for_each(1, [&](int) { *task_.counts = {points_, links_.nodes(), 0, 0}; });
   }
 
  private:

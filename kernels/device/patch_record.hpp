@@ -74,7 +74,8 @@ struct SumPatch {
       for (int j = 0; j < PointOutcome::kSums; ++j)
         all[j] += task.vectors.total[PointOutcome::kSums * part + j];
     const PatchCounts& counts = *task.counts;
-    *task.result = {{all[0], all[1], all[2]}, all[3], all[4], counts.points, counts.at_the_end};
+    *task.result = {{all[0], all[1], all[2]}, all[3],          all[4], counts.points,
+                    counts.at_the_end,        counts.unsettled};
   }
 };
 

@@ -247,6 +247,8 @@ class PatchSolution {
       const LargestPair largest = respond(ball.next(task_.springs, task_.dt));
       const double change = std::sqrt(largest.first);
       if (change <= kTractionTolerance * largest.second) break;
+      if (iteration == kMostIterations)
+        teams_.for_each(1, [&](int) { task_.counts->unsettled = change / largest.second; });
       if (iteration == 1) first = change;
       if (change > kDivergence * first)
         ball = begin([&](int i) { return 2 * tile(i).compliance[of_run(i) % kLanes]; });

@@ -204,17 +204,17 @@ TEST(SceneErrors, PartsThatDoNotFit) {
   expect_messages({
       {"[corrugation]\nstart = \"30 m\"",
        "x.toml:4:1: corrugation.start: the corrugation, x = 30 m to 30.56 m, is not on the rail, -6.1 m to "
-       "9.1 m"},
+       "9.1 m; move it, or lengthen the rail"},
       {"[corrugation]\nstart = \"2.5 m\"",
        "x.toml:4:1: corrugation.start: the corrugation, x = 2.5 m to 3.06 m, is not inside the solution "
-       "zone, 2.4 m to "
-       "3 m"},
+       "zone, 2.4 m to 3 m; move one of them, or widen the zone"},
       {"[corrugation]\nwavelength = \"0.7 m\"",
-       "x.toml:4:1: corrugation.wavelength: not one wave fits into the corrugation's length"},
+       "x.toml:4:1: corrugation.wavelength: not one wave of 700 mm fits into the corrugation's length of 560 "
+       "mm; "
+       "state a smaller corrugation.wavelength or a larger corrugation.length"},
       {"[solution_zone]\nstart = \"9 m\"",
        "x.toml:4:1: solution_zone.start: the solution zone, x = 9 m to 9.6 m, is not inside the track, -6.1 "
-       "m to 9.1 "
-       "m"},
+       "m to 9.1 m; move or shorten it, or lengthen the rail"},
       {"[motion]\nduration = \"0.2 s\"",
        "x.toml:4:1: motion.duration: the wheel rolls to x = 16.6667 m, beyond 9.08 m, where it is 0.02 m "
        "from the rail's end; state a shorter motion.duration, or rail.length = \"22.9 m\" and "
@@ -226,29 +226,39 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "from the rail's end; state a shorter motion.duration, or rail.length = \"16.6 m\" and "
        "fastenings.count = 26"},
       {"[rail]\norigin = \"0 m\"",
-       "x.toml:4:1: rail.origin: the wheel starts at x = 0 m; the rail lets it start from 0.02 m on"},
+       "x.toml:4:1: rail.origin: the wheel starts at x = 0 m; the rail lets it start from 0.02 m on: "
+       "state a larger rail.origin"},
       {"[motion]\nrun_up = \"9 m\"",
-       "x.toml:4:1: motion.run_up: the wheel starts at x = -6.6 m; the rail lets it start from -6.08 m on"},
+       "x.toml:4:1: motion.run_up: the wheel starts at x = -6.6 m; the rail lets it start from -6.08 m on: "
+       "state a larger rail.origin or a smaller motion.run_up"},
       {"[fastenings]\ncount = 25",
-       "x.toml:4:1: fastenings.count: the last fastening's pad ends at 15.81 m, beyond the rail of 15.2 m"},
+       "x.toml:4:1: fastenings.count: the last fastening's pad ends at 15.81 m, beyond the rail of 15.2 m; "
+       "state a smaller fastenings.count or a larger rail.length"},
       {"[fastenings]\nfirst = \"0.05 m\"",
-       "x.toml:4:1: fastenings.first: the first fastening's pad begins before the rail's left end"},
+       "x.toml:4:1: fastenings.first: the first fastening's pad begins 0.035 m before the rail's left end; "
+       "state a larger fastenings.first or a shorter fastenings.pad_length"},
       {"[fastenings]\npad_length = \"0.7 m\"\nfirst = \"0.4 m\"\ncount = 10",
-       "x.toml:4:1: fastenings.pad_length: the pads of neighbouring fastenings overlap"},
+       "x.toml:4:1: fastenings.pad_length: the pads of neighbouring fastenings overlap: they are 700 mm "
+       "long, "
+       "650 mm apart; state a shorter fastenings.pad_length or a larger fastenings.spacing"},
       {"[fastenings]\nacross = \"free\"",
        "x.toml:4:1: fastenings.across: nothing would hold the rail sideways; state \"held\", or \"elastic\" "
        "with fastenings.across_stiffness"},
       {"[slab]\ngap = \"7 m\"",
-       "x.toml:4:1: slab.gap: the gap is not shorter than the pitch of slab and gap together"},
+       "x.toml:4:1: slab.gap: the gap, 7000 mm, is not shorter than the pitch of slab and gap "
+       "together, 6500 mm; state a smaller slab.gap or a larger slab.pitch"},
       {"[motion]\ntraction = { mu = 0.3, torque = \"3 kN m\" }",
        "x.toml:4:24: motion.traction.torque: state the traction by mu or by torque, not both"},
       {"[motion]\ntraction = { mu = -0.6 }",
        "x.toml:4:14: motion.traction.mu: a traction coefficient of -0.6 cannot be reached with the "
-       "coefficient of "
-       "friction 0.5"},
-      {"[wheel]\nshape = \"tyre\"", "x.toml:4:1: wheel.shape: a tyre has the profile arc or cylinder"},
+       "coefficient of friction 0.5; state at most that, or more friction"},
+      {"[wheel]\nshape = \"tyre\"",
+       "x.toml:4:1: wheel.shape: a tyre has the profile arc or cylinder; state one of them, or wheel.shape = "
+       "\"half_wheelset\""},
       {"[wheel]\nprofile = \"arc\"",
-       "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA, S1002 or a file"},
+       "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA, S1002 or a file; state one of them, "
+       "or "
+       "wheel.shape = \"tyre\""},
       {"[wheel]\ndiameter = \"0.4 m\"\nlateral_offset = \"40 mm\"",
        "2 problems\nx.toml:4:1: wheel.diameter: 400 mm is outside 660 to 1400 mm of a half wheelset: rim, "
        "brake ring and hub need their room between tread and axle; wheel.shape = \"tyre\" takes other "
@@ -333,7 +343,8 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
       {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
        "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
       {"[hammer]\nposition = \"20 m\"\nforce = \"1 kN\"\nduration = \"1 ms\"",
-       "x.toml:4:1: hammer.position: the struck point, x = 20 m, is not on the rail, -6.1 m to 9.1 m"},
+       "x.toml:4:1: hammer.position: the struck point, x = 20 m, is not on the rail, -6.1 m to 9.1 m; "
+       "move it, or lengthen the rail"},
       {"[motion]\npresent = false\n[hammer]\nforce = \"1 kN\"\nduration = \"1 ms\"",
        "x.toml:5:2: hammer: a hammer needs [motion] with the duration"},
   });
@@ -482,12 +493,16 @@ TEST(SceneErrors, DepthsOfSurfaces) {
        "the "
        "diameter"},
       {"[surface.a]\nkind = \"dip\"\nat = \"12 m\"\nlength = \"1 m\"\ndepth = \"1 mm\"",
-       "x.toml:5:1: surface.a.at: the depth's place, x = 12 m, is not on the rail, -6.1 m to 9.1 m"},
+       "x.toml:5:1: surface.a.at: the depth's place, x = 12 m, is not on the rail, -6.1 m to 9.1 m; move it, "
+       "or "
+       "lengthen the rail"},
       {"[surface.a]\nkind = \"dip\"\non = \"wheel\"\nat = \"1 m\"\nlength = \"3 m\"\ndepth = \"1 mm\"",
-       "x.toml:7:1: surface.a.length: the depth is 3 m long, the wheel's circumference 2.70177 m"},
+       "x.toml:7:1: surface.a.length: the depth is 3 m long, the wheel's circumference 2.70177 m; shorten "
+       "the depth"},
       {"[surface.a]\nkind = \"waves\"\nat = \"1 m\"\nlength = \"0.3 m\"\ndepth = \"1 mm\"\nwavelength = \"1 "
        "m\"",
-       "x.toml:8:1: surface.a.wavelength: not one wave fits into the length"},
+       "x.toml:8:1: surface.a.wavelength: not one wave of 1000 mm fits into the length of 300 mm; "
+       "state a smaller wavelength or a larger length"},
       {"[surface.a]\nkind = \"hole\"\nat = \"1 m\"\ndepth = \"1 mm\"\nlength = \"1 m\"",
        "x.toml:4:1: surface.a.kind: \"hole\" is unknown; choose from: dip, dent, waves, polygon, flat, "
        "profile, map"},

@@ -78,6 +78,7 @@ class Patch {
   }
 
   int iterations() const { return solver_.iterations(); }
+  double unsettled() const { return solver_.unsettled(); }
 
   double penalty = kPenalty;  ///< [Pa/m]
   std::vector<ContactPoint> points;
@@ -371,18 +372,31 @@ std::vector<double> bits_with(int number) {
 
 /// Three points a face of two nodes, gaps as of a wheel, a penalty far beyond the default. Momentum alone
 /// goes round, and plain iterations alone take many more than are allowed.
-TEST(PatchSolver, AStiffPenaltySettles) {
+/// A row of faces under a parabola of gaps, solved with this penalty [Pa/m].
+Patch under_parabola(double penalty) {
   constexpr int kFaces = 20;
   Patch patch(kWheel, 3 * kFaces);
-  patch.penalty = 100 * kPenalty;
+  patch.penalty = penalty;
   for (int i = 0; i < 3 * kFaces; ++i) {
     const double w = 0.5 + 0.387 * (i % 3 - 1);
     const double x = (i - 1.5 * kFaces) / (1.5 * kFaces);
     patch.add(3e-6 * (x * x - 0.6), {{i / 3, 1 - w}, {i / 3 + 1, w}}, {{i / 3, 1 - w}, {i / 3 + 1, w}});
   }
   patch.solve({2.5, 0, -1});
+  return patch;
+}
+
+TEST(PatchSolver, AStiffPenaltySettles) {
+  const Patch patch = under_parabola(100 * kPenalty);
   EXPECT_GT(patch.iterations(), kWithMomentum + kWithoutMomentum);
   EXPECT_LT(patch.iterations(), kMostIterations);
+  EXPECT_EQ(patch.unsettled(), 0);
+}
+
+TEST(PatchSolver, TellsWhenItDoesNotSettle) {
+  const Patch patch = under_parabola(1e8 * kPenalty);
+  EXPECT_GT(patch.iterations(), kMostIterations);
+  EXPECT_GT(patch.unsettled(), kUnsettled);
 }
 
 TEST(PatchSolver, AnyNumberOfThreadsGivesTheSameBits) {

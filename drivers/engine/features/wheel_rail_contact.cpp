@@ -38,9 +38,10 @@ void WheelRailContact::search(const StepState& step) {
 
 void WheelRailContact::add_tractions(StepState& step) {
   if (!step.contact_beside) contact_->resolve({step.displacement, step.velocity, mass_}, step.wheel, step.dt);
-  if (contact_->point_at_the_end(step.wheel)) {
+  if (!contact_->settled() || contact_->point_at_the_end(step.wheel)) {
     step.end.stop_if_unstable();
     contact_->require_room(step.wheel);
+    contact_->require_settled();
   }
   if (step.measured && step.whole.adds_forces()) contact_->add_forces(step.force);
   const Vec3 on_wheel = -contact_->totals().force_on_rail;
