@@ -38,6 +38,17 @@ TREAD_INLINE void store(Real* at, const V& value) {
   *reinterpret_cast<Unaligned<V, Real>*>(at) = value;
 }
 
+/// Compilers load a value anew for each use, and loads bound the elements' loop.
+template <class V>
+TREAD_INLINE V in_register(V value) {
+#if defined(__AVX512F__)
+  asm("" : "+v"(value));
+#elif defined(__AVX__)
+  asm("" : "+x"(value));
+#endif
+  return value;
+}
+
 /// Number of values in a register.
 template <class Real>
 constexpr int kFitting = kRegisterBytes / static_cast<int>(sizeof(Real));

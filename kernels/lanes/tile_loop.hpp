@@ -103,8 +103,8 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
   template <class Sums>
   TREAD_INLINE static void load_corners(const Sums& sums, Register (&s)[4], Register (&d)[4]) {
     for (int j = 0; j < 4; ++j) {
-      s[j] = load<Register>(sums(j));
-      d[j] = load<Register>(sums(j) + 3 * kAbreast);
+      s[j] = in_register(load<Register>(sums(j)));
+      d[j] = in_register(load<Register>(sums(j) + 3 * kAbreast));
     }
   }
 
