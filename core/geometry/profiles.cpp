@@ -132,14 +132,15 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z,
   if (kept_y.front() > -kNarrowest || kept_y.back() < kNarrowest || kept_y.front() < -widest ||
       kept_y.back() > widest) {
     const double middle = (kept_y.front() + kept_y.back()) / 2, half = (kept_y.back() - kept_y.front()) / 2;
+    const std::string lean = lean_hint(head_lean(measured, middle));
     throw InputError(fmt::format(
         "rail profile: the table spans y = {:.1f} ... {:.1f} mm above 18 mm below the crown; it has to end "
         "between {:.1f} and {:.1f} mm on either side of the middle: {}",
         kept_y.front() / mm, kept_y.back() / mm, kNarrowest / mm, widest / mm,
         half >= widest - kWhole && half <= widest
             ? fmt::format(
-                  "its own middle is y = {:.1f} mm, which rail.profile_shift = \"{:.1f} mm\" corrects",
-                  middle / mm, (shift - middle) / mm)
+                  "its own middle is y = {:.1f} mm, which rail.profile_shift = \"{:.1f} mm\" corrects{}{}",
+                  middle / mm, (shift - middle) / mm, lean.empty() ? "" : "; ", lean)
             : "are the units right, is the whole head measured, and does rail.section name the rail?"));
   }
 
@@ -152,6 +153,22 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z,
       .line_to(low);
   section.running = std::move(running);
   return section;
+}
+
+double head_lean(const PlaneCurve& head, double middle) {
+  constexpr double kBeside = 10 * mm;
+  constexpr double kLean = 0.01;  // rails lean by 1:40 or 1:20 in the track
+  const Point2 left = head.at(head.at_x(middle - kBeside)).position;
+  const Point2 right = head.at(head.at_x(middle + kBeside)).position;
+  const double lean = (right.y - left.y) / (right.x - left.x);
+  return std::abs(lean) > kLean ? lean : 0;
+}
+
+std::string lean_hint(double lean) {
+  if (lean == 0) return "";
+  return fmt::format("the head leans by 1:{:.0f} to the {}", 1 / std::abs(lean),
+                     lean > 0 ? "track's middle: if it was measured in the track, state rail.inclination = 0"
+                              : "field side: if it is a right rail, state rail.profile_mirrored = true");
 }
 
 WheelProfile lma() {
@@ -183,9 +200,11 @@ WheelProfile lma() {
 WheelProfile wheel_from_table(std::span<const double> y, std::span<const double> z) {
   const PlaneCurve raw = curve_through(y, z, "wheel profile");
   if (!(y.front() < 0 && y.back() > 0))
-    throw InputError(fmt::format(
-        "wheel profile: the table spans y = {:.1f} ... {:.1f} mm and misses the nominal rolling circle y = 0",
-        y.front() / mm, y.back() / mm));
+    throw InputError(
+        fmt::format("wheel profile: the table spans y = {:.1f} ... {:.1f} mm and misses the nominal rolling "
+                    "circle y = 0; "
+                    "state the wheel.profile_shift that brings it there",
+                    y.front() / mm, y.back() / mm));
   const double nominal = raw.at(raw.at_x(0)).position.y;
   std::vector<double> shifted(z.begin(), z.end());
   for (double& value : shifted) value -= nominal;

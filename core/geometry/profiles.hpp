@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 
 #include "core/geometry/plane_curve.hpp"
 
@@ -36,6 +37,13 @@ RailProfile cn60();
 /// rail.profile_shift already, for that message [m].
 RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section,
                            double shift = 0);
+
+/// Slope of a head from 10 mm left to 10 mm right of y = `middle` [m], positive towards the track's middle;
+/// 0 below 1:100 [-].
+double head_lean(const PlaneCurve& head, double middle);
+
+/// Way out for a head that leans because it was measured in the track or belongs to the other rail; "" for 0.
+std::string lean_hint(double lean);
 
 /// Wheel axes: y across (field side positive, flange negative), z towards the flange tip, origin on the
 /// nominal rolling circle; the radius is D / 2 + z.

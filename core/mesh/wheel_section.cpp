@@ -206,9 +206,8 @@ WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape&
   const double left = profile.surface.start().x, right = profile.surface.end().x;
   if (!(right - left > 0.09 && left < 0 && right > 0))
     throw InputError(
-        fmt::format("wheel profile: spans y = {:.1f} ... {:.1f} mm; a wheel of a half wheelset needs the "
-                    "whole rim (shape \"tyre\" takes "
-                    "narrow profiles)",
+        fmt::format("wheel profile: spans y = {:.1f} ... {:.1f} mm; a half wheelset needs the whole rim, "
+                    "more than 90 mm about the nominal rolling circle y = 0",
                     left * 1e3, right * 1e3));
   const double middle = 0.5 * (left + right);
   const Web web(shape, middle);

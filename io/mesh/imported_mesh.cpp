@@ -51,11 +51,12 @@ MeshSource source_of(std::string_view text, const std::filesystem::path& name, M
   return {};
 }
 
-void check_unit(const MeshSource& source, double unit, MeshFaults& faults) {
-  if (source.stated_unit == 0 || std::abs(source.stated_unit / unit - 1) < 1e-9) return;
-  faults.add(0, "units that differ",
-             fmt::format("the file states a unit of {:g} m (*CONTROL_UNITS), the user one of {:g} m",
-                         source.stated_unit, unit));
+void check_unit(const MeshSource& source, const MeshWish& wish, MeshFaults& faults) {
+  if (source.stated_unit == 0 || std::abs(source.stated_unit / wish.unit - 1) < 1e-9) return;
+  faults.add(
+      0, "units that differ",
+      fmt::format("the file states a unit of {:g} m (*CONTROL_UNITS), {} one of {:g} m; state the file's",
+                  source.stated_unit, wish.unit_key, wish.unit));
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ ImportedMesh mesh_of(std::string_view text, const std::filesystem::path& name, c
     return {};
   }
   const MeshSource source = source_of(text, name, faults);
-  if (faults.empty()) check_unit(source, wish.unit, faults);
+  if (faults.empty()) check_unit(source, wish, faults);
   if (!faults.empty()) return {};
   std::vector<int> lines;
   ImportedMesh imported = numbered_mesh(source, wish, faults, lines);

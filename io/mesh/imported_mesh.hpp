@@ -15,9 +15,10 @@ namespace tread {
 
 /// Statements of the user beside the file.
 struct MeshWish {
-  double unit = 0;                 ///< length of the file's numbers [m]
-  std::vector<std::string> parts;  ///< parts or sets of elements by name or number; empty: all elements
-  int pieces = 1;                  ///< bodies without a common face that the mesh consists of
+  double unit = 0;                  ///< length of the file's numbers [m]
+  std::vector<std::string> parts;   ///< parts or sets of elements by name or number; empty: all elements
+  int pieces = 1;                   ///< bodies without a common face that the mesh consists of
+  std::string unit_key = "--unit";  ///< key or option that states the unit
 };
 
 struct ImportedMesh {

@@ -61,6 +61,9 @@ class MiniprofParser {
     const std::vector<double> number = leading_numbers(value, 1);
     if (name == "columndef") read_columns(value);
     if (name == "side" || name == "rail") points_.side = value;
+    // The makers' meaning of both is not public; CONTACT does not apply them either.
+    if ((name == "tilt" || name == "basetilt") && !number.empty() && number[0] != 0)
+      points_.notes.push_back(fmt::format("{} = {:g} of the header not applied", key, number[0]));
     const bool numeric = name == "xoffset" || name == "yoffset" || name == "xypoints" || name == "mptypeno";
     if (!numeric || value.empty()) return;
     if (!with_decimal_points(value).empty()) {

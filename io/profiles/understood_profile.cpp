@@ -10,10 +10,14 @@
 #include "core/geometry/smoothing_spline.hpp"
 #include "core/millimetre.hpp"
 #include "io/profiles/profile_cleaning.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
 namespace {
+
+/// From the flange's back to the nominal rolling circle. [EN 13715]
+constexpr double kBackToCircle = 70 * mm;
 
 struct Range {
   double low, high;
@@ -28,27 +32,22 @@ void turn(std::vector<double>& values) {
   for (double& value : values) value = -value;
 }
 
-/// Throws InputError, which names the points as `points` and asks `doubt`, unless their number and width are
-/// those of a profile.
-void check_size(const UnderstoodProfile& p, bool wheel, const std::string& points, const std::string& doubt) {
+void check_number(const UnderstoodProfile& p) {
   if (p.y.size() < kFewestProfilePoints)
     throw InputError(fmt::format("{} points: a profile needs at least {}", p.y.size(), kFewestProfilePoints));
-  const auto [low, high] = range_of(p.y);
-  const Range allowed = wheel ? Range{90 * mm, 200 * mm} : Range{40 * mm, 200 * mm};
-  if (!(high - low >= allowed.low && high - low <= allowed.high))
-    throw InputError(fmt::format("{} are {:.4g} mm wide; a {} profile has {:g} to {:g} mm: {}", points,
-                                 (high - low) / mm, wheel ? "whole wheel" : "rail", allowed.low / mm,
-                                 allowed.high / mm, doubt));
-}
-
-void check_points_of_file(const UnderstoodProfile& p, bool wheel) {
-  check_size(p, wheel, "the points", fmt::format("are the units {} right?", p.units));
 }
 
 void check_kept_points(const UnderstoodProfile& p, bool wheel) {
-  check_size(p, wheel, fmt::format("after {} points beyond the surface are cut, the others", p.cut),
-             wheel ? "is y zero at the nominal rolling circle or at the flange's back?"
-                   : "is it a whole rail head?");
+  check_number(p);
+  require_width(p.y, wheel, fmt::format("after {} points beyond the surface are cut, the others", p.cut),
+                wheel ? "is y zero at the nominal rolling circle or at the flange's back?"
+                      : "is it a whole rail head?");
+}
+
+/// Returns true where a wheel's y begins at the flange's back.
+bool is_from_back(double low) {
+  constexpr double kBeside = 20 * mm;
+  return low > -kBeside;
 }
 
 /// z of the point nearest to the middle of the width.
@@ -92,9 +91,7 @@ void orient_wheel(UnderstoodProfile& p) {
   const auto [low, high] = range_of(p.y);
   p.mirrored = tip > (low + high) / 2;
   if (p.mirrored) turn(p.y);
-  // Between the flange's back and the nominal rolling circle lie 70 mm. [EN 13715]
-  constexpr double kBackToCircle = 70 * mm;
-  if (range_of(p.y).low > -20 * mm) {
+  if (is_from_back(range_of(p.y).low)) {
     p.from_back = kBackToCircle;
     for (double& y : p.y) y -= kBackToCircle;
   }
@@ -115,6 +112,25 @@ void orient_rail(UnderstoodProfile& p, bool mirrored) {
 }
 
 }  // namespace
+
+void require_width(const std::vector<double>& y, bool wheel, const std::string& points,
+                   const std::string& doubt) {
+  const auto [low, high] = range_of(y);
+  const Range allowed = wheel ? Range{90 * mm, 200 * mm} : Range{40 * mm, 200 * mm};
+  if (!(high - low >= allowed.low && high - low <= allowed.high))
+    throw InputError(fmt::format("{} are {:.4g} mm wide; a {} profile has {:g} to {:g} mm: {}", points,
+                                 (high - low) / mm, wheel ? "whole wheel" : "rail", allowed.low / mm,
+                                 allowed.high / mm, doubt));
+}
+
+void require_circle(const std::vector<double>& y, double shift) {
+  const auto [low, high] = range_of(y);
+  if (!is_from_back(low)) return;
+  throw InputError(fmt::format(
+      "y = {:.1f} ... {:.1f} mm counts from the flange's back, not from the nominal rolling circle; "
+      "wheel.profile_shift = \"{:g} mm\" corrects it",
+      low / mm, high / mm, (shift - kBackToCircle) / mm));
+}
 
 double UnderstoodProfile::largest_deviation() const {
   return deviation.empty() ? 0 : *std::max_element(deviation.begin(), deviation.end());
@@ -147,7 +163,8 @@ UnderstoodProfile understand(FilePoints points, const ProfileWish& wish) {
   p.y = std::move(points.y);
   p.z = std::move(points.z);
   p.duplicates = remove_duplicates(p.y, p.z);
-  check_points_of_file(p, wish.wheel);
+  check_number(p);
+  require_width(p.y, wish.wheel, "the points", fmt::format("are the units {} right?", p.units));
   if (wish.wheel)
     orient_wheel(p);
   else
@@ -163,6 +180,8 @@ UnderstoodProfile understand(FilePoints points, const ProfileWish& wish) {
   p.folded = kept.folded;
   p.cut = kept.cut;
   check_kept_points(p, wish.wheel);
+  if (!wish.wheel && !wish.mirrored && lower_case(p.side).starts_with('r'))
+    p.notes.emplace_back("a right rail may need rail.profile_mirrored = true");
   finish(p, wish);
   return p;
 }

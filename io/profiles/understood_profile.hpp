@@ -45,6 +45,14 @@ struct UnderstoodProfile {
 /// Throws InputError for points that are no wheel or rail.
 UnderstoodProfile understand(FilePoints points, const ProfileWish& wish);
 
+/// Throws InputError, which names the points as `points` and asks `doubt`, unless y [m] is as wide as a
+/// profile.
+void require_width(const std::vector<double>& y, bool wheel, const std::string& points,
+                   const std::string& doubt);
+
+/// Throws InputError where a wheel's y [m], with `shift` [m] added already, counts from the flange's back.
+void require_circle(const std::vector<double>& y, double shift);
+
 /// Shifts and smooths a profile whose axes are known. Throws InputError.
 void finish(UnderstoodProfile& profile, const ProfileWish& wish);
 

@@ -35,9 +35,10 @@ ImportedMesh mesh_in(const std::string& text, const std::filesystem::path& name,
   return imported;
 }
 
-void set_mesh(const std::string& text, const std::string& name, BodySpec& body,
+void set_mesh(const std::string& text, const std::string& name, const std::string& table, BodySpec& body,
               std::vector<Problem>& problems) {
   MeshWish wish;
+  wish.unit_key = table + ".unit";
   wish.unit = parse_quantity("1 " + body.unit, kLength);
   if (!body.part.empty()) wish.parts = {body.part};
   const std::size_t known = problems.size();

@@ -20,8 +20,8 @@ ImportedMesh mesh_in(const std::string& text, const std::filesystem::path& name,
                      std::vector<Problem>& problems);
 
 /// Takes the body's mesh, about its origin, from a file's text. Every fault is added to `problems`; the body
-/// is then without a mesh.
-void set_mesh(const std::string& text, const std::string& name, BodySpec& body,
+/// is then without a mesh. `table`: "body.disc".
+void set_mesh(const std::string& text, const std::string& name, const std::string& table, BodySpec& body,
               std::vector<Problem>& problems);
 
 /// Sentences on what the bodies' files hold beside the bodies, "body.disc: not read: *MAT_ELASTIC".

@@ -112,12 +112,14 @@ void add_wheel(Keys& keys) {
   keys.push_back(quantity(
       "wheel.lateral_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::lateral_offset), kLength, "mm",
       {-0.05, 0.05},
-      fmt::format("Rail centre line in wheel coordinates, positive to the field side: half of (gauge + "
-                  "width of the rail head 14 mm below its crown - wheels' distance back to back), less "
-                  "the way from the flange's back to y = 0 of the profile, usually 70 mm; the default "
-                  "belongs to CN60 and wheels 1353 mm back to back; under a half wheelset at most {:g} "
-                  "mm to either side",
-                  1e3 * kMostAside)));
+      fmt::format(
+          "Rail centre line in wheel coordinates, positive to the field side: half of (gauge + "
+          "width of the rail head 14 mm below its crown - wheels' distance back to back), less "
+          "the way from the flange's back to y = 0 of the profile, usually 70 mm, and less 18 mm times "
+          "rail.inclination, by which the gauge face moves as the rail turns about its crown; the "
+          "default belongs to an upright CN60 and wheels 1353 mm back to back; under a half wheelset at most "
+          "{:g} mm to either side",
+          1e3 * kMostAside)));
   keys.push_back(
       half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
                              above(0, 1e4), "Mass that the web, or the brake rings, are sized to reach")));
@@ -258,8 +260,8 @@ void add_fastenings(Keys& keys) {
         "Spring-dampers across the rail");
   add_foot_hold(
       keys, "fastenings.along", &FasteningSpec::along, {Effect::preload, Effect::cost},
-      "The rail's foot along x at the fastenings: it cannot move, moves freely, or is held by springs "
-      "and dampers to the ground");
+      "The rail's foot along x at the fastenings: it cannot move, moves freely (for vertical forces alone), "
+      "or is held by springs and dampers to the ground");
   add_foot_hold(keys, "fastenings.across", &FasteningSpec::across, {Effect::motion, Effect::cost},
                 "The rail's foot across the rail, as `along`; `free` in plane strain alone");
   keys.push_back(
@@ -350,9 +352,11 @@ void add_support(Keys& keys, const std::string& name) {
 }
 
 void add_vehicle_and_load(Keys& keys) {
-  keys.push_back(quantity("vehicle.sprung_mass", {Effect::preload, Effect::cost},
-                          at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg", above(0, 1e5),
-                          "Sprung mass M_c on this wheel"));
+  keys.push_back(
+      quantity("vehicle.sprung_mass", {Effect::preload, Effect::cost},
+               at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg", above(0, 1e5),
+               "Sprung mass M_c on this wheel; half the axle load is (`sprung_mass` + `unsprung_mass` + "
+               "half wheelset) times `scene.gravity`, `tread check` shows both"));
   keys.push_back(quantity("vehicle.unsprung_mass", {Effect::preload, Effect::cost},
                           at(&Scene::vehicle, &VehicleSpec::unsprung_mass), kMass, "kg", from(0, 1e5),
                           "Unsprung mass M_a attached to the wheelset"));
@@ -366,9 +370,10 @@ void add_vehicle_and_load(Keys& keys) {
                         at(&Scene::vehicle, &VehicleSpec::longitudinal), {"carried", "free"},
                         "Motion of the sprung mass along x: carried rigidly with the journal, or free, so "
                         "that traction speeds up wheelset and unsprung mass alone"));
-  keys.push_back(required(quantity("load.wheel_load", {Effect::preload, Effect::cost},
-                                   at(&Scene::load, &LoadSpec::wheel_load), kForce, "kN", above(0, 1e7),
-                                   "Downward force on the wheel")));
+  keys.push_back(
+      required(quantity("load.wheel_load", {Effect::preload, Effect::cost},
+                        at(&Scene::load, &LoadSpec::wheel_load), kForce, "kN", above(0, 1e7),
+                        "Downward force on the wheel's journal or bore; the wheel's weight comes on top")));
 }
 
 }  // namespace tread::keys

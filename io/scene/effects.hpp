@@ -52,9 +52,6 @@ class Effects {
   constexpr bool on_results() const {
     return on_smooth_motion() || any_of({Effect::surface, Effect::duration, Effect::output, Effect::wear});
   }
-  /// Returns true if the value enters the mesh, step, memory or disk of a run over a smooth rail of the same
-  /// duration.
-  constexpr bool on_cost() const { return any_of({Effect::mesh, Effect::cost, Effect::output}); }
 
   /// The words of EffectText, "mesh, cost".
   std::string names() const;

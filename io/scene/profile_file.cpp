@@ -24,6 +24,11 @@ UnderstoodProfile documented(TwoColumns columns, const ProfileWish& wish) {
     std::reverse(columns.second.begin(), columns.second.end());
     for (double& y : columns.first) y = -y;
   }
+  for (double& y : columns.first) y += wish.shift;
+  require_width(columns.first, wish.wheel, "the points",
+                "is the file whole? two columns are in mm, unless a line such as `# y [m]  z [m]` states "
+                "other units");
+  if (wish.wheel) require_circle(columns.first, wish.shift);
   const std::string fault = wish.wheel ? wheel_profile_fault(columns) : rail_profile_fault(columns);
   if (!fault.empty())
     throw InputError(fmt::format("{} (`tread profile FILE {} -o clean.txt` does it)", fault,
@@ -38,7 +43,7 @@ UnderstoodProfile documented(TwoColumns columns, const ProfileWish& wish) {
         fmt::format("fewer than {} points give radii only roughly", kFewestProfilePoints));
   profile.y = std::move(columns.first);
   profile.z = std::move(columns.second);
-  finish(profile, wish);
+  finish(profile, {.smoothing = wish.smoothing});
   return profile;
 }
 

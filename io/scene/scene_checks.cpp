@@ -88,8 +88,7 @@ class Checker {
         "fastenings stand on sleepers or on a slab; state slab.present = false or sleepers.present = false");
     require(!s.vehicle || s.wheel, {"vehicle"}, "a vehicle needs a wheel; add [wheel]");
     require(!s.load || s.wheel, {"load"}, "a load needs a wheel; add [wheel]");
-    require(!s.vehicle || !s.load, {"load", "vehicle"},
-            "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
+    require(!s.vehicle || !s.load, {"load", "vehicle"}, two_loads());
     require(!s.contact || (s.wheel && s.rail), {"contact"},
             "contact needs [wheel] and [rail]; add both, or leave [contact] out");
     require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]; add it");
@@ -102,7 +101,7 @@ class Checker {
     require(!s.corrugation || s.contact, {"corrugation"},
             "a corrugation needs [contact]; add it, or leave [corrugation] out");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"},
-            "a pulse needs [rail] and no wheel; leave out [wheel] or [pulse]");
+            "a pulse needs [rail] and no wheel; state [rail] alone, or leave [pulse] out");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
     require(
         !s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
@@ -120,6 +119,23 @@ class Checker {
             "load.present = false or vehicle.present = false");
     require(s.wheel || s.rail, {"scene.based_on"},
             "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
+  }
+
+  /// Refusal of a load beside a vehicle, with the sprung mass that presses as much.
+  std::string two_loads() const {
+    if (!scene_.vehicle || !scene_.load) return "";
+    const double mass = scene_.load->wheel_load / scene_.gravity - scene_.vehicle->unsprung_mass;
+    const std::string as_much =
+        mass > 0 && std::isfinite(mass)
+            ? fmt::format(
+                  "vehicle.sprung_mass = \"{:.6g} kg\" presses as much as the load: state it in place "
+                  "of [load], or ",
+                  mass)
+            : "";
+    return fmt::format(
+        "a wheel carries a vehicle or a load; {}leave one out: vehicle.present = false takes its masses and "
+        "suspension away",
+        as_much);
   }
 
   /// Nodes are held across: contact may not push them there.

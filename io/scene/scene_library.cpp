@@ -44,7 +44,8 @@ LibraryEntry highspeed_slab_2014() {
               {"wheel.shape", "half_wheelset", kText},
               {"wheel.profile", "LMA", kText},
               {"wheel.diameter", "0.86 m", kTable1},
-              {"wheel.lateral_offset", "6.5 mm", "gauge 1435 mm, wheels 1353 mm back to back"},
+              {"wheel.lateral_offset", "6.5 mm",
+               "gauge 1435 mm, wheels 1353 mm back to back, upright rail; 6 mm on 1:40"},
               {"wheel.mass", "586 kg", kTable1},
               {"wheel.brake_rings", "false", kChosen},
               {"wheel.axle_bore", "60 mm", kChosen},
@@ -132,7 +133,7 @@ LibraryEntry ballasted_cn60() {
               {"material.concrete.youngs_modulus", "35 GPa", "concrete of the class C50/60"},
               {"material.concrete.poissons_ratio", "0.2", "concrete"},
               {"material.concrete.density", "2400 kg/m3", "concrete"},
-              {"rail.origin", "6.15 m", "between two sleepers"},
+              {"rail.origin", "6.15 m", "the wheel starts over fastening 12"},
               {"fastenings.count", "28", "as many as the rail takes"},
               {"fastenings.spacing", "0.55 m", kTrack},
               {"fastenings.first", "0.1 m", kChosen},
@@ -154,18 +155,18 @@ LibraryEntry ballasted_cn60() {
 }
 
 LibraryEntry ballasted_60e1() {
-  return {
-      "ballasted-60e1",
-      "ballasted-cn60",
-      "The same ballasted track with rails 60E1 (EN 13674-1) and a wheel S1002 (EN 13715).",
-      {
-          {"rail.profile", "60E1", "EN 13674-1"},
-          {"rail.section", "60E1", "EN 13674-1"},
-          {"wheel.profile", "S1002", "EN 13715"},
-          {"wheel.diameter", "920 mm", "usual for coaches"},
-          {"wheel.lateral_offset", "5 mm",
-           "wheels 1360 mm back to back on a gauge of 1435 mm; 1.5 mm more, away from a jump of the contact"},
-      }};
+  return {"ballasted-60e1",
+          "ballasted-cn60",
+          "The same ballasted track with rails 60E1 (EN 13674-1) and a wheel S1002 (EN 13715).",
+          {
+              {"rail.profile", "60E1", "EN 13674-1"},
+              {"rail.section", "60E1", "EN 13674-1"},
+              {"wheel.profile", "S1002", "EN 13715"},
+              {"wheel.diameter", "920 mm", "usual for coaches"},
+              {"wheel.lateral_offset", "5 mm",
+               "wheels 1360 mm back to back, gauge 1435 mm: 3 mm on 1:40; 2 mm more, away from a jump of the "
+               "contact"},
+          }};
 }
 
 }  // namespace

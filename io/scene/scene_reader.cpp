@@ -276,7 +276,7 @@ class SceneBuilder {
     for (auto& [name, body] : scene_.bodies) {
       const std::string table = std::string(kBodyTables) + name;
       const auto read = [&, &of = body](const std::string& text, const std::string& file) {
-        set_mesh(text, file, of, problems_);
+        set_mesh(text, file, table, of, problems_);
       };
       if (settings_.count(table + ".unit") && !bad_.count(table + ".unit"))
         read_file_of(table + ".file", read, read_mesh_text);

@@ -54,6 +54,9 @@ std::string usual_user(std::string_view material);
 /// Returns true if the key has an effect in the scene (Key::only_with).
 bool applies(const Key& key, const Scene& scene);
 
+/// The path of the table in which the path lies, known or not; "" for a path of one word.
+std::string_view table_above(std::string_view path);
+
 /// The path of a known key or table that the user may have meant, or "".
 std::string similar_path(std::string_view unknown);
 

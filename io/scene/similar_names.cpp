@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <set>
 
 #include "io/scene/key_table.hpp"
 #include "io/scene/schema.hpp"
@@ -10,6 +11,19 @@ namespace {
 
 std::string_view leaf_of(std::string_view path) {
   return path.substr(path.rfind('.') + 1);
+}
+
+/// Returns true if one name has all words of the other: "mass" and "sprung_mass".
+bool shares_words(std::string_view one, std::string_view other) {
+  const auto words = [](std::string_view name) {
+    std::set<std::string_view> found;
+    for (; found.insert(name.substr(0, name.find('_'))), name.find('_') != std::string_view::npos;)
+      name.remove_prefix(name.find('_') + 1);
+    return found;
+  };
+  const std::set<std::string_view> a = words(one), b = words(other);
+  return std::includes(a.begin(), a.end(), b.begin(), b.end()) ||
+         std::includes(b.begin(), b.end(), a.begin(), a.end());
 }
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
@@ -32,7 +46,30 @@ std::size_t tolerance(std::string_view word) {
   return std::clamp<std::size_t>(word.size() / 3, 1, 3);
 }
 
+/// A path of the same table that shares words with the unknown one, else one of the same last word in another
+/// table; "" where several tables have that word and the unknown path lies in a known one.
+std::string of_same_words(std::string_view unknown, const std::vector<std::string>& paths) {
+  const std::string_view table = table_above(unknown);
+  const bool in_known = !table.empty() && is_table(table);
+  std::vector<std::string> elsewhere;
+  for (const std::string& path : paths) {
+    if (in_known && table_above(path) == table && shares_words(leaf_of(path), leaf_of(unknown))) return path;
+    if (leaf_of(path) == leaf_of(unknown)) elsewhere.push_back(path);
+  }
+  const auto other_table = [&](const std::string& path) {
+    return path.substr(0, path.find('.')) != elsewhere.front().substr(0, elsewhere.front().find('.'));
+  };
+  if (elsewhere.empty() || (in_known && std::any_of(elsewhere.begin(), elsewhere.end(), other_table)))
+    return "";
+  return elsewhere.front();
+}
+
 }  // namespace
+
+std::string_view table_above(std::string_view path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string_view::npos ? "" : path.substr(0, dot);
+}
 
 std::string similar_text(std::string_view text, const std::vector<std::string>& options) {
   constexpr std::size_t kLongestWord = 100;
@@ -61,9 +98,7 @@ std::string similar_path(std::string_view unknown) {
   if (std::find(kNamedTables.begin(), kNamedTables.end(), near + ".") != kNamedTables.end())
     return near + ".NAME";
   if (!near.empty() || leaf_of(unknown) == "present") return near;  // most tables have that key
-  const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
-  const auto elsewhere = std::find_if(paths.begin(), paths.end(), same_leaf);
-  return elsewhere == paths.end() ? "" : *elsewhere;
+  return of_same_words(unknown, paths);
 }
 
 }  // namespace tread

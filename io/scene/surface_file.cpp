@@ -17,6 +17,8 @@ namespace tread {
 
 namespace {
 
+constexpr std::uint64_t kLargestMap = 10'000'000;  ///< values
+
 /// InputError where the dataset states no unit.
 std::string unit_of(const Hdf5File& file, const std::string& dataset) {
   const Hdf5Attributes attributes = file.attributes(dataset);
@@ -46,13 +48,28 @@ std::vector<double> values_of(const Hdf5File& file, const std::string& dataset) 
   return values;
 }
 
-std::string text_of(const Hdf5File& file) {
+/// Number of values of a dataset in the file `name`, before they are read: a file may state any.
+std::uint64_t size_of(const Hdf5File& file, const std::string& dataset, const std::string& name) {
+  std::uint64_t size = 1;
+  for (const std::uint64_t length : file.shape(dataset)) {
+    if (length > kLargestMap || size * length > kLargestMap)
+      throw InputError(
+          fmt::format("{}: dataset '{}' has more than {} values, a map at most; state fewer places", name,
+                      dataset, kLargestMap));
+    size *= length;
+  }
+  return size;
+}
+
+std::string text_of(const Hdf5File& file, const std::string& name) {
+  const std::vector<std::uint64_t> places = {size_of(file, "y", name), size_of(file, "x", name)};
+  size_of(file, "depth", name);
+  if (file.shape("depth") != places)
+    throw InputError(fmt::format("dataset 'depth' does not have {} rows, one for each y, of {} values",
+                                 places[0], places[1]));
   const std::vector<double> x = values_of(file, "x");
   const std::vector<double> y = values_of(file, "y");
   const std::vector<double> depth = values_of(file, "depth");
-  if (file.shape("depth") != std::vector<std::uint64_t>{y.size(), x.size()})
-    throw InputError(fmt::format("dataset 'depth' does not have {} rows, one for each y, of {} values",
-                                 y.size(), x.size()));
   std::string text = fmt::format("# x [{}]  y [{}]  d [{}]\n", unit_of(file, "x"), unit_of(file, "y"),
                                  unit_of(file, "depth"));
   for (std::size_t j = 0; j < y.size(); ++j)
@@ -64,7 +81,7 @@ std::string text_of(const Hdf5File& file) {
 }  // namespace
 
 std::string read_map_text(const std::filesystem::path& path) {
-  return begins_as_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
+  return begins_as_hdf5(path) ? text_of(Hdf5File::open_to_read(path), path.string()) : read_table_text(path);
 }
 
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,

@@ -247,7 +247,7 @@ class TableParser {
 
   std::string example() const {
     if (columns_ == 3) return "# x [mm]  y [mm]  d [um]";
-    return "# x [m]  " + (rules_.pure_second ? "f [-]" : rules_.example);
+    return "# " + (rules_.pure_second ? "x [m]  f [-]" : rules_.example);
   }
 
   void add_row(const std::vector<std::string>& row, const std::string& line) {

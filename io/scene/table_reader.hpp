@@ -24,7 +24,7 @@ struct TableRules {
   std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
   std::vector<Quantity> first = {kLength};               ///< quantities that the first column may hold
   std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
-  std::string example = "d [mm]";                        ///< name and unit of the second column in messages
+  std::string example = "x [m]  d [mm]";                 ///< names and units of both columns in messages
   std::vector<ColumnNames> names = {};  ///< by column; with these the header's order is checked
   std::string units_option = {};        ///< that states the units too, for messages
   double deepest = std::numeric_limits<double>::infinity();  ///< largest magnitude in the last column [m]
@@ -42,7 +42,7 @@ inline const TableRules kFrictionTable = {.needs_units = true,
 
 /// Across and from the axle.
 inline const TableRules kWebOutline = {
-    .needs_units = true, .example = "r [mm]", .names = {{"y"}, {"r", "z", "radius"}}};
+    .needs_units = true, .example = "y [mm]  r [mm]", .names = {{"y"}, {"r", "z", "radius"}}};
 
 struct TwoColumns {
   std::vector<double> first;   ///< in SI; [rad] where the rules allow angles and the file states [deg]

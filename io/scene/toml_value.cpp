@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "io/files/absolute_path.hpp"
+#include "io/scene/unknown_key.hpp"
 #include "io/text/text.hpp"
 #include "io/text/units.hpp"
 
@@ -100,7 +101,9 @@ std::string to_text(const Key& key, const toml::node& node, const fs::path& fold
   if (key.takes_file && looks_like_file && !value.empty()) return absolute_path(folder / value);
   if (key.allowed.empty()) throw InputError("the file name is empty");
   const std::string similar = similar_text(value, key.allowed);
-  throw InputError(fmt::format("\"{}\" is unknown; {}choose from: {}{}", value,
+  const std::string instead = instead_of(value);
+  throw InputError(fmt::format("\"{}\" is unknown{}; {}choose from: {}{}", value,
+                               instead.empty() ? "" : ": " + instead,
                                similar.empty() ? "" : fmt::format("did you mean \"{}\"? ", similar),
                                fmt::join(key.allowed, ", "), key.takes_file ? ", or a file" : ""));
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -78,6 +80,24 @@ constexpr std::array kPurposes = {
             "the preload is implicit, the rolling explicit; `tread multibody` for long ways"},
     Purpose{{"restart", "continue"},
             "`tread resume DIR` goes on with a run, `tread run --from DIR` begins with its state"},
+    Purpose{{"axle_load", "axleload", "static_load"},
+            "vehicle.sprung_mass sets it: half the axle load is the weight of sprung mass, unsprung mass and "
+            "the half wheelset; `tread check` shows both"},
+    Purpose{{"velocity", "train_speed", "vehicle_speed"}, "motion.speed is the wheel's forward speed"},
+    Purpose{{"mu", "friction_coefficient", "coefficient_of_friction", "cof"},
+            "contact.friction is the coefficient of friction, motion.traction.mu the traction coefficient"},
+    Purpose{{"penalty", "penalty_stiffness", "contact_stiffness"},
+            "contact.penetration_ratio sets the penalty stiffness"},
+    Purpose{{"radius", "wheel_radius"}, "wheel.diameter is twice the wheel's radius"},
+    Purpose{{"gauge", "track_gauge"},
+            "the model is half a track and has no gauge; wheel.lateral_offset selects the place of contact"},
+    Purpose{{"pitch", "sleeper_spacing", "fastening_spacing"},
+            "fastenings.spacing is the distance of the fastenings and of their sleepers"},
+    Purpose{{"pad_stiffness", "pad_damping", "pad", "railpad"},
+            "fastenings.stiffness and fastenings.damping are those of a fastening with its pad"},
+    Purpose{{"amplitude"}, "the depth is twice the amplitude: corrugation.depth, or depth of [surface.NAME]"},
+    Purpose{{"time_step", "timestep", "dt"}, "the time step is motion.step_safety times the stable step"},
+    Purpose{{"uic60", "s49"}, "UIC 60 is rail.profile = \"60E1\", S 49 is \"49E1\""},
 };
 
 /// Names that a scene gives to its tables, by the start of their paths.
@@ -89,27 +109,34 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOwnNames
      {kBodyTables, "a body's name"},
      {kProbeTables, "a probe's name"}}};
 
+/// instead_of() the last part of the path that has an answer, among those below all known tables.
+std::string instead_of_part(std::string_view path) {
+  for (; !path.empty() && !is_table(path); path = table_above(path))
+    if (std::string instead = instead_of(path.substr(path.rfind('.') + 1)); !instead.empty()) return instead;
+  return "";
+}
+
 }  // namespace
 
 std::string instead_of(std::string_view word) {
+  const auto same = [](unsigned char typed, unsigned char known) { return std::tolower(typed) == known; };
   for (const Purpose& purpose : kPurposes)
     for (const std::string_view known : purpose.words)
-      if (!known.empty() && known == word) return fmt::format("{} (docs/can-and-cannot.md)", purpose.instead);
+      if (!known.empty() && std::equal(word.begin(), word.end(), known.begin(), known.end(), same))
+        return fmt::format("{} (see can-and-cannot.md)", purpose.instead);
   return "";
 }
 
 std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) {
-  const auto dot = path.rfind('.');
-  const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+  const std::string parent(table_above(path));
   for (const auto& [tables, name] : kOwnNames)
     if (parent + "." == tables) return fmt::format("{} consists of letters, digits, _ and -", name);
   const std::string what = is_a_table ? "table" : "key";
   if (const std::optional<SceneTable> table = table_of(parent);
       table && path == table->name + ".present" && !table->removable())
     return fmt::format("unknown {}: [{}] is always there and cannot be left out", what, parent);
-  const std::string instead =
-      instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
-  if (!instead.empty()) return fmt::format("unknown {}: {}", what, instead);
+  if (const std::string instead = instead_of_part(path); !instead.empty())
+    return fmt::format("unknown {}: {}", what, instead);
   const std::string similar = suggest ? similar_path(path) : "";
   if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
   return fmt::format("unknown {} (known: {})", what, names_in(is_table(parent) ? parent : ""));

@@ -6,8 +6,8 @@
 
 namespace tread {
 
-/// Sentence on what exists in place of a thing of this name, "gpu", "sleepers"; "" for a word without a known
-/// purpose. [docs/can-and-cannot.md]
+/// Sentence on what exists in place of a thing of this name, "gpu", "sleepers", in letters of any case; ""
+/// for a word without a known purpose. [docs/can-and-cannot.md]
 std::string instead_of(std::string_view word);
 
 /// The reason why `path` is an error, and the way out: what exists in its place [docs/can-and-cannot.md], the
