@@ -107,6 +107,11 @@ inline constexpr int kPartStride = 3 * kNodeParts + 1;  ///< odd, for the banks
 inline constexpr int kPatchParts = 32;
 /// Teams of a patch at most.
 inline constexpr int kMostTeams = 16;
+/// Teams of a patch in a card's code for this architecture, 900 for 9.0. Older code knows no clusters, on
+/// newer cards either.
+constexpr int teams_of_code(int architecture) {
+  return architecture >= 900 ? 8 : 1;
+}
 
 struct PatchCounts {
   int points, nodes;

@@ -93,8 +93,10 @@ __global__ void __launch_bounds__(kPatchThreads, Body::kNeedsMemory ? 1 : 2)
 class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
   explicit CudaDevice(int number)
-      : number_(number), card_(properties_of(number)), spared_(opened(), kPatchTeams) {
-    patch_teams_ = card_.major >= 9 ? kPatchTeams : 1;
+      : number_(number),
+        card_(properties_of(number)),
+        patch_teams_(opened()),
+        spared_(number, static_cast<unsigned>(patch_teams_)) {
     int last = 0;
     int first = 0;
     check(cudaDeviceGetStreamPriorityRange(&last, &first), "its priorities");
@@ -163,12 +165,13 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
                           "; --device cpu needs none");
   }
 
+  /// Opens the card. Returns the teams of a patch in the code that it takes.
   int opened() const {
     check(cudaSetDevice(number_), "opening it");
     check(cudaFree(nullptr), "opening it");
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, each_kernel<Triad>), "its code");
-    return number_;
+    return teams_of_code(10 * attributes.ptxVersion);  // not binaryVersion: that may be made of older PTX
   }
 
   struct Queue {
@@ -274,7 +277,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   int number_;
   cudaDeviceProp card_;
-  int patch_teams_ = 1;
+  int patch_teams_;
   SparedProcessors spared_;
   std::array<Queue, kQueues> queues_;
 };

@@ -13,7 +13,6 @@ namespace tread {
 namespace {
 
 constexpr int kPatchThreads = 512;  ///< of each team of a patch
-constexpr int kPatchTeams = 8;      ///< of a cluster, which cards have since architecture 90
 constexpr unsigned kAll = ~0U;      ///< lanes of a warp
 constexpr int kWarp = 32;
 
@@ -185,6 +184,7 @@ class CudaTeams {
   }
 
 #if __CUDA_ARCH__ >= 900
+  static_assert(teams_of_code(__CUDA_ARCH__) > 1);
   __device__ void join() const {
     if (teams() == 1)
       __syncthreads();

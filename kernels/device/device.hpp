@@ -210,7 +210,8 @@ struct Emulation {
   int teams = 4;                   ///< of a patch, kMostTeams at most
   std::size_t shared = 200 << 10;  ///< memory of each of them, a multiple of 64 [B]
   std::size_t team_bytes = std::numeric_limits<std::size_t>::max();    ///< Device::team_bytes
-  std::int64_t free_bytes = std::numeric_limits<std::int64_t>::max();  ///< Device::free_bytes
+  std::int64_t free_bytes = std::numeric_limits<std::int64_t>::max();  ///< Device::free_bytes at first
+  std::int64_t copies = std::numeric_limits<std::int64_t>::max();      ///< after which the device is lost
 };
 std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
 
@@ -223,6 +224,10 @@ std::vector<std::string> gpus();
 std::string why_no_gpu();
 /// ResourceError where there is no card of this number, or the program has no code for it.
 std::unique_ptr<Device> open_gpu(int number);
+
+/// Sentence on a card that this machine lacks for a device of this name; "" where it has one, or none is
+/// needed. InputError for a name that is no device.
+std::string missing_device(std::string_view name);
 
 /// Chooses the device of the steps to come: cpu or no name (none), gpu, gpu:N, emulated, or auto (a card
 /// where there is one). InputError for another name, ResourceError where the device is not there. `place`:

@@ -67,7 +67,7 @@ const T* DeviceContact::keep(std::span<const T> values) {
   return to;
 }
 
-DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* mass)
+DeviceContact::DeviceContact(Device& device, Contact& contact, const double* mass)
     : device_(&device), contact_(&contact), law_(contact.options().friction) {
   const ContactSearch& search = contact.searching();
   const SurfacePair& surfaces = search.surfaces();
@@ -82,7 +82,7 @@ DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact,
   task_.quadrature = keep(quadrature);
   task_.springs = contact.springs_of_points();
   task_.end = search.end();
-  task_.mass = keep(std::span<const double>(mass, index(mesh.slots)));
+  task_.mass = mass;
   task_.window.rail_edges = surfaces.rail_profile().edges();
   task_.window.points = search.quadrature().size();
   keep_law();

@@ -17,8 +17,8 @@ namespace tread {
 
 class DeviceContact {
  public:
-  /// Copies what does not change. Keeps references. `mass`: by slot of the mesh [kg].
-  DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* mass);
+  /// Copies what does not change. Keeps references. `mass`: on the device, by slot of the mesh [kg].
+  DeviceContact(Device& device, Contact& contact, const double* mass);
 
   /// When a step of dt [s] searches, and where.
   struct Instant {

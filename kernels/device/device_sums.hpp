@@ -43,6 +43,9 @@ class DeviceSums {
   /// Quads of the next block, in the order of blocks.
   void add(const BlockElements<Real>& elements);
 
+  /// On the device, by slot [kg].
+  const double* mass() const { return mass_.data(); }
+
   /// The times of a motion.
   struct Instant {
     BodyFrame frame;         ///< of the spinning body, at the time of the displacements

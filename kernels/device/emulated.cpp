@@ -6,12 +6,14 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <map>
 #include <new>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "core/aligned.hpp"
+#include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_kernels.hpp"
@@ -193,16 +195,18 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
   std::string name() const override { return "emulated"; }
   MarchCut cut() const override { return emulation_.cut; }
   std::size_t team_bytes() const override { return emulation_.team_bytes; }
-  std::int64_t free_bytes() const override { return emulation_.free_bytes; }
+  std::int64_t free_bytes() const override { return emulation_.free_bytes - taken_; }
   bool spoils_copies() const override { return emulation_.spoils_copies; }
 
   void* allocate(std::size_t bytes) override {
     void* const memory = ::operator new (bytes, std::align_val_t{64});
     std::memset(memory, 0, bytes);
+    taken_ += static_cast<std::int64_t>(bytes_[memory] = bytes);
     return memory;
   }
   void release(void* memory) override {
     wait();
+    taken_ -= static_cast<std::int64_t>(bytes_.extract(memory).mapped());
     ::operator delete (memory, std::align_val_t{64});
   }
   /// A copy may be under way.
@@ -217,6 +221,7 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
   void copy_to(void* to, const void* from, std::size_t bytes) override { copy(to, from, bytes); }
   void copy_from(void* to, const void* from, std::size_t bytes) override { copy(to, from, bytes); }
   void copy(void* to, const void* from, std::size_t bytes) {
+    if (emulation_.copies-- <= 0) throw ResourceError("the device emulated is lost; --device cpu needs none");
     start([=] { std::memcpy(to, from, bytes); });
   }
 
@@ -268,6 +273,8 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
   }
 
   Emulation emulation_;
+  std::map<void*, std::size_t> bytes_;  ///< by piece of memory [B]
+  std::int64_t taken_ = 0;              ///< their sum [B]
   LateQueues queues_;
 };
 

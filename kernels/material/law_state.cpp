@@ -33,20 +33,22 @@ std::int64_t state_values_of(const SweptBlock& block) {
 
 int law_of(const SweptBlock& block) {
   const int law = law_of(block, block.materials.front());
-  for (const Material& material : block.materials)
-    if (law_of(block, material) != law)
+  for (const Material& material : block.materials) {
+    const int other = law_of(block, material);
+    if (block.vertical_only && !is_linear(other))
+      throw InputError(fmt::format(
+          "block '{}': its nodes move vertically only, which is a model of linear elasticity, but "
+          "its material '{}' has "
+          "the law '{}'; state law = \"elastic\"",
+          block.name, material.name, material.law));
+    if (other != law)
       throw InputError(
           fmt::format("block '{}': the materials '{}' and '{}' have the laws '{}' and '{}', but a block's "
                       "elements are computed "
                       "by one; state the same law for both",
                       block.name, block.materials.front().name, material.name, block.materials.front().law,
                       material.law));
-  if (block.vertical_only && !is_linear(law))
-    throw InputError(
-        fmt::format("block '{}': its nodes move vertically only, which is a model of linear elasticity, but "
-                    "its material '{}' has "
-                    "the law '{}'; state law = \"elastic\"",
-                    block.name, block.materials.front().name, block.materials.front().law));
+  }
   return law;
 }
 
