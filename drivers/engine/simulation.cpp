@@ -1,5 +1,8 @@
 #include "drivers/engine/simulation.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <string>
 
 #include "core/error.hpp"
@@ -25,10 +28,24 @@ std::int64_t watch_interval(std::int64_t sampling) {
   return (sampling + looks - 1) / looks;
 }
 
+/// The model, if it can be moved by such a step [s].
+const Model& movable(const Model& model, double dt) {
+  if (!(dt > 0 && std::isfinite(dt)))
+    throw InputError(fmt::format(
+        "the step is {:g} s: no time would pass; state a share of step_limit()'s stable step", dt));
+  if (model.scene.corrugation && model.contact && model.contact->corrugation().smooth())
+    throw InputError(
+        fmt::format("corrugation.kind = \"{}\": the model's rail is smooth still; call "
+                    "Model::apply_corrugation() with the "
+                    "deepest line's y after the preload, or take the corrugation out of the scene",
+                    model.scene.corrugation->kind));
+  return model;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Model& model, double patch_y, double dt)
-    : model_(&model),
+    : model_(&movable(model, dt)),
       dt_(dt),
       fields_(make_node_fields(model)),
       u_(fields_->displacement()),

@@ -23,7 +23,8 @@ struct MomentumCheck {
 
 class Simulation final : private RunEnd {
  public:
-  /// Starts from a preload at the scene's speed. `dt`: the step [s].
+  /// Starts from a preload at the scene's speed. `dt`: the step [s]. InputError where it is not above zero,
+  /// or the scene's corrugation is not applied to the model.
   Simulation(const Model& model, const Preload& preload, double dt);
   /// Bodies at rest, undeformed, for the fields of state() to be restored; `patch_y`: centre of the preload's
   /// patch [m].

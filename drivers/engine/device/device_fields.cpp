@@ -55,8 +55,7 @@ void DeviceFields<Real, U>::choose_movers(const Model& model, Movers movers) {
   host_held_ = std::move(movers.held_hosts);
   held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(movers.held));
   held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(movers.held_ties));
-  tied_surfaces_ = movers.tied_surfaces;
-  if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.mass.data());
+  if (movers.contact) device_contact_.emplace(*device_, *contact_, looks_.sums().mass());
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
   host_ties_ = model.ties && !ties_;
@@ -200,11 +199,11 @@ void DeviceFields<Real, U>::start_contact() {
   device_contact_->start(arrays_.next.u.data(), arrays_.next.v.data());
 }
 
-/// Tractions wait for the nodes about the patch alone, unless surfaces have tied nodes.
+/// Tractions wait for the nodes about the patch alone.
 template <class Real, class U>
 void DeviceFields<Real, U>::begin_motion(const StepLoads& loads) {
   marches_.start(loads, [&](int block) { return march_fields(block); });
-  if (!tied_surfaces_) start_contact();
+  start_contact();
   start_host_forces();
   marches_.join();
 }
@@ -212,7 +211,6 @@ void DeviceFields<Real, U>::begin_motion(const StepLoads& loads) {
 template <class Real, class U>
 void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
   tie(loads);
-  if (tied_surfaces_) start_contact();
   std::swap(arrays_.now, arrays_.next);
   ++step_;
   loads_ = loads;

@@ -145,7 +145,6 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   Contact* contact_;                                ///< null: absent
   std::optional<SurfaceCopies<Real, U>> surfaces_;  ///< with contact
   std::optional<DeviceContact> device_contact_;     ///< none: the host searches and solves
-  bool tied_surfaces_ = false;                      ///< surfaces in contact have tied nodes
   std::vector<std::int64_t> copied_;                ///< by group: step of its last copy to the host
   std::int64_t step_ = 0;                           ///< number of the step, from 1 on
 

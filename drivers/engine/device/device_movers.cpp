@@ -35,8 +35,7 @@ Movers movers_of(const Model& model) {
   GroupMarks host = connected_groups(model);
   const GroupMarks surfaces = surface_groups(model);
   GroupMarks tied = tied_groups(model);
-  if (model.ties &&
-      (meet(host, tied) || meet(surfaces, groups_of(model.mesh, model.ties->primary_slots())))) {
+  if (meet(host, tied) || meet(surfaces, tied)) {
     add_marks(host, tied);
     std::fill(tied.begin(), tied.end(), 0);
   }
@@ -47,7 +46,6 @@ Movers movers_of(const Model& model) {
                                               : kMoves);
     if (host[group] != 0) movers.hosted.push_back(static_cast<std::int64_t>(group));
   }
-  movers.tied_surfaces = meet(surfaces, tied);
   movers.contact = model.contact && !meet(host, surfaces);
   choose_holders(model, movers);
   return movers;

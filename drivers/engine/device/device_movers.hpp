@@ -14,7 +14,6 @@ struct Movers {
   std::vector<int> marks;            ///< MarchFields::group_mark
   std::vector<std::int64_t> hosted;  ///< the host's groups, ascending
   bool contact = false;              ///< contact runs on the device
-  bool tied_surfaces = false;        ///< surfaces in contact have tied nodes
 
   std::vector<unsigned char> held;       ///< MarchFields::held
   std::vector<std::int64_t> held_ties;   ///< unknowns of tied nodes

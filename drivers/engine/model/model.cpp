@@ -18,6 +18,7 @@
 #include "drivers/engine/model/lateral_gap.hpp"
 #include "drivers/engine/model/rail_foot.hpp"
 #include "drivers/engine/model/restraints.hpp"
+#include "drivers/engine/model/scene_requirements.hpp"
 #include "drivers/engine/model/sections.hpp"
 #include "drivers/engine/model/surfaces.hpp"
 #include "kernels/element/front_plan.hpp"
@@ -45,6 +46,7 @@ FrictionLaw friction_of(const ContactSpec& spec) {
 
 Model::Model(const Scene& source, std::optional<double> corrugation_centre, const AcceptMesh& accept)
     : scene(source), sizes(mesh_sizes(source)) {
+  require_scene(scene);
   build_blocks();
   if (accept) accept({elements(), nodes()}, sizes);
   tie_blocks();

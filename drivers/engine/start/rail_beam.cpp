@@ -154,4 +154,18 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
   return beam;
 }
 
+double loaded_deflection(const Scene& scene, double x, double force) {
+  const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.rail_material());
+  const TrackBeam beam = rail_beam(scene, rail);
+  // By reciprocity the weight's deflection at x is the weight times the area of the line under a unit force
+  // there.
+  const std::vector<double> line = beam.static_state(x, 1);
+  constexpr int kParts = 2000;
+  double area = 0;
+  for (int i = 0; i < kParts; ++i)
+    area += beam.deflection(line, beam.left() + beam.length() * (i + 0.5) / kParts) * beam.length() / kParts;
+  const double bed = scene.sleepers ? scene.gravity * sleeper_mass(scene) / scene.sleepers->stiffness : 0;
+  return force * beam.deflection(line, x) + rail.mass * scene.gravity * area + bed;
+}
+
 }  // namespace tread

@@ -42,4 +42,8 @@ double head_spread(const Scene& scene, const BeamProperties& properties);
 /// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
+/// Deflection of that beam at x [m] under a force on its head there [N] and the own weight of rail and
+/// sleepers, all supports alike. InputError without [rail]. [m]
+double loaded_deflection(const Scene& scene, double x, double force);
+
 }  // namespace tread

@@ -40,6 +40,11 @@ double full_torque(const Model& model) {
   return *motion->traction_mu * model.wheel_load() * model.wheel_radius() * spin_up(model);
 }
 
+double full_traction(const Model& model) {
+  const double torque = full_torque(model), load = model.wheel_load();
+  return torque != 0 && load > 0 ? torque / (model.wheel_radius() * spin_up(model)) / load : 0;
+}
+
 void require_grip(const Model& model, double traction) {
   if (traction == 0) return;
   const double x = model.scene.start_x();
@@ -57,8 +62,7 @@ double steady_traction(const Model& model) {
   const std::optional<MotionSpec>& motion = model.scene.motion;
   const bool steady = motion && motion->ramp == 0 && motion->speed > 0 && model.scene.start() != "rigid";
   if (!steady || !model.contact || model.torque.empty()) return 0;
-  const double force = full_torque(model) / (model.wheel_radius() * spin_up(model));
-  const double traction = force / model.wheel_load();
+  const double traction = full_traction(model);
   require_grip(model, traction);
   return traction;
 }

@@ -9,6 +9,10 @@ namespace tread {
 /// Torque of which MotionSpec::torque_share() is the share; 0 without traction [N m].
 double full_torque(const Model& model);
 
+/// F_L over the static wheel load under the full torque, spin and speed growing together [-]; 0 without
+/// traction or load.
+double full_traction(const Model& model);
+
 /// Throws InputError if the patch of a wheelset that rolls steadily under F_L / F_N = `traction` would slide.
 void require_grip(const Model& model, double traction);
 
