@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -21,6 +22,13 @@ std::atomic<bool> g_deferred = false;
 std::atomic<int> g_stop = 0;             ///< signal that asked to stop
 std::atomic<std::int64_t> g_asked_at{};  ///< time of the request on the steady clock; 0: never [ns]
 std::atomic<bool> g_checkpoint = false;
+
+struct StopSignal {
+  int number;
+  const char* name;
+};
+constexpr StopSignal kStopSignals[] = {
+    {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
 constexpr std::size_t kLongest = 1000;
 char g_early[2][kLongest + 1];  ///< while a signal may write one, the other can be replaced
 std::atomic<int> g_which_early = 0;
@@ -45,11 +53,13 @@ void write_sentence(const char* sentence) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence, std::strlen(sentence));
 }
 
-/// Notes the first request to stop. Returns true if this is a second one.
+/// Notes the first request to stop. Returns true if this is a second one. The system repeats SIGXCPU every
+/// second beyond a limit of processor time.
 bool asks_again(int signal) {
   const std::int64_t now = steady_now();
   std::int64_t asked_at = 0;
-  if (!g_asked_at.compare_exchange_strong(asked_at, now)) return now - asked_at >= kSameRequest;
+  if (!g_asked_at.compare_exchange_strong(asked_at, now))
+    return signal != SIGXCPU && now - asked_at >= kSameRequest;
   g_stop = signal;
   write_sentence(g_asked);
   return false;
@@ -76,18 +86,23 @@ Interruption::Interruption(const std::string& early, const std::string& late, co
   g_stop = 0;
   g_asked_at = 0;
   g_checkpoint = false;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGXFSZ}) {
-    struct sigaction action {};
-    action.sa_handler = signal == SIGPIPE || signal == SIGXFSZ ? SIG_IGN : on_signal;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    struct sigaction before {};
-    ::sigaction(signal, nullptr, &before);
-    // A user who starts a run with nohup wants SIGHUP ignored.
-    if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
-    ::sigaction(signal, &action, nullptr);
-    before_.emplace_back(signal, before);
-  }
+  for (const StopSignal& signal : kStopSignals) handle(signal.number, on_signal);
+  handle(SIGUSR1, on_signal);
+  handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);
+}
+
+void Interruption::handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  struct sigaction before {};
+  ::sigaction(signal, nullptr, &before);
+  // A user who starts a run with nohup wants SIGHUP ignored.
+  if (signal == SIGHUP && before.sa_handler == SIG_IGN) return;
+  ::sigaction(signal, &action, nullptr);
+  before_.emplace_back(signal, before);
 }
 
 Interruption::~Interruption() {
@@ -105,16 +120,9 @@ void Interruption::defer() {
 }
 
 const char* Interruption::stop_wanted() {
-  switch (g_stop) {
-    case 0:
-      return nullptr;
-    case SIGINT:
-      return "SIGINT";
-    case SIGTERM:
-      return "SIGTERM";
-    default:
-      return "SIGHUP";
-  }
+  const int stop = g_stop;
+  if (stop == 0) return nullptr;
+  return std::ranges::find(kStopSignals, stop, &StopSignal::number)->name;
 }
 
 bool Interruption::take_checkpoint_wanted() {

@@ -8,11 +8,11 @@
 
 namespace tread {
 
-/// Watches SIGINT, SIGTERM, SIGHUP and SIGUSR1 while it lives; one object at a time. Until defer() the first
-/// three end the process at once, with ExitCode::resumable and a sentence. After defer() the first of them
-/// only asks, and another one half a second later or more ends the process. SIGPIPE is ignored: a run
-/// outlives the reader of its progress. SIGXFSZ is ignored too: the write that went too far reports the
-/// error.
+/// Watches SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU and SIGUSR1 while it lives; one object at a time. Until
+/// defer() all but SIGUSR1 end the process at once, with ExitCode::resumable and a sentence. After defer()
+/// the first of them only asks, and another one half a second later or more, except SIGXCPU, ends the
+/// process. SIGPIPE is ignored: a run outlives the reader of its progress. SIGXFSZ is ignored too: the write
+/// that went too far reports the error.
 class Interruption {
  public:
   /// `early` and `late`: the sentences, before defer() and after it. `asked`: what the first signal says
@@ -32,6 +32,8 @@ class Interruption {
   static bool take_checkpoint_wanted();
 
  private:
+  void handle(int signal, void (*handler)(int));
+
   std::vector<std::pair<int, struct sigaction>> before_;
 };
 

@@ -11,7 +11,10 @@ Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
 
 void Progress::say(const std::string& text) const {
-  if (quiet_) return;
+  if (!quiet_) warn(text);
+}
+
+void Progress::warn(const std::string& text) const {
   print_error(text + "\n");
 }
 

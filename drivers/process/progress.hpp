@@ -12,6 +12,8 @@ class Progress {
 
   /// Writes the whole line at once.
   void say(const std::string& text) const;
+  /// The same for a warning, which `quiet` does not hide.
+  void warn(const std::string& text) const;
 
   /// Returns true if `interval` [s] of wall clock has passed since it last did.
   bool due(double interval);

@@ -13,7 +13,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/memory_need.hpp"
-#include "drivers/run/preload_cache.hpp"
+#include "drivers/run/program_hash.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/run_model.hpp"
 #include "io/report/plain_text.hpp"

@@ -6,18 +6,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <limits>
 #include <span>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/math/hash.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/run/program_hash.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/scene_content.hpp"
-#include "io/text/text_file.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -161,16 +159,6 @@ void keep_preload(const ContentCache& cache, const std::string& key, FoundPreloa
 }
 
 }  // namespace
-
-std::uint64_t program_hash() {
-  static const std::uint64_t value = [] {
-    const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
-    Hash hash;
-    hash.add(std::as_bytes(std::span(program)));
-    return hash.value();
-  }();
-  return value;
-}
 
 std::optional<ContentCache> preload_cache(const std::string& place) {
   const std::string stated = place.empty() ? environment("TREAD_CACHE") : place;

@@ -1,7 +1,6 @@
 #pragma once
 // Preloads that earlier runs have found. [robustness.md, Preload cache]
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,9 +15,6 @@ namespace tread {
 /// or else is tread/ in XDG_CACHE_HOME or ~/.cache. TREAD_CACHE_LIMIT, "4 GB", bounds it. Nothing where it is
 /// off. Throws InputError.
 std::optional<ContentCache> preload_cache(const std::string& place);
-
-/// Hash of the running program's own bytes: another build may find other bits.
-std::uint64_t program_hash();
 
 struct FoundPreload {
   Preload preload;

@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/process/machine.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -19,10 +18,10 @@ namespace tread {
 
 namespace {
 
-constexpr int kLookInterval = 16;         ///< steps between two looks at the clock
+constexpr int kLookInterval = 16;  ///< steps between two looks at the clock
+constexpr double kFinalShare =
+    0.05;  ///< age of a checkpoint over their interval at which the end has its own
 constexpr double kRequestInterval = 0.5;  ///< time between two looks into the folder [s]
-constexpr double kNoticeAfter = 5;        ///< time after which busy cores are noticed [s]
-constexpr double kBusyShare = 0.6;  ///< share of the time that threads work if nothing else runs, at least
 
 std::string instant(double time, std::int64_t steps) {
   return fmt::format("t = {:.6e} s (step {})", time, steps);
@@ -57,7 +56,7 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt, simulation_->steps());
   for (const std::string& gap : frames_->gaps(simulation_->steps()))
-    session_->progress.say("[warning] " + gap);
+    session_->progress.warn("[warning] " + gap);
   written_ = Mark{simulation_->steps(), simulation_->time()};
   seconds_before_ = results_->seconds_rolling;
 }
@@ -95,7 +94,7 @@ void Rolling::to_the_end() {
   begin_ranks();
   started_ = checkpoint_at_ = session_->progress.seconds();
   started_steps_ = simulation_->steps();
-  started_processor_ = processor_seconds();
+  cores_ = CoreWatch();
   session_->interruption.defer();
   try {
     // The preload is expensive, and other values than those of the last checkpoint must not be forgotten.
@@ -120,13 +119,21 @@ void Rolling::step_to_the_end() {
       end<ResourceError>(
           fmt::format("stop.steps = {} ends the run here, and each `tread resume` at once", most));
     if (simulation_->steps() == fork_step_) keep_for_forks();
+    const double before = session_->progress.seconds();
     followers_.step(*simulation_);
-    if (simulation_->sampled()) {
-      keep_sample();
-    }
+    if (simulation_->sampled()) keep_sample();
+    stepping_ += session_->progress.seconds() - before;
     look();
   }
   if (simulation_->steps() == fork_step_) keep_for_forks();  // at the run's end
+  // Evaluation and report follow: a kill there must not cost more than they do.
+  if (checkpoint_is_due(kFinalShare)) write_checkpoint();
+}
+
+/// Returns true if the last checkpoint is older than a share of their interval and the energies are balanced.
+bool Rolling::checkpoint_is_due(double share) const {
+  const double age = session_->progress.seconds() - checkpoint_at_;
+  return age >= share * model_->scene.output.checkpoint_interval && simulation_->energy_watch().share() <= 1;
 }
 
 void Rolling::keep_sample() {
@@ -147,9 +154,7 @@ void Rolling::look() {
   even_ranks();
   const double now = session_->progress.seconds();
   if (!writer_.running()) wait_for_writer();
-  const bool balanced = simulation_->energy_watch().share() <= 1;
-  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && balanced)
-    write_checkpoint();
+  if (!writer_.running() && checkpoint_is_due(1)) write_checkpoint();
   if (session_->progress.due(model_->scene.output.progress_interval)) {
     session_->progress.say(progress_line());
     session_->folder.show_status(status());
@@ -157,30 +162,19 @@ void Rolling::look() {
   }
   if (now - looked_at_ < kRequestInterval) return;
   looked_at_ = now;
-  const std::optional<RunRequest> request = session_->folder.take_request();
-  if (request == RunRequest::checkpoint) write_checkpoint();
-  if (request == RunRequest::frame) write_frame();
-  if (request == RunRequest::stop) leave("tread ctl");
+  obey_request();
   if (const auto limit = model_->scene.stop.wall_time; limit && now > *limit)
     leave(fmt::format("stop.wall_time = {}", duration_text(*limit)));
   check_disk();
 }
 
-void Rolling::notice_busy_cores() {
-  const double passed = session_->progress.seconds() - started_;
-  const bool waits = !followers_.absent() || chosen_device() != nullptr;  // for other ranks, for a device
-  if (noticed_busy_cores_ || passed < kNoticeAfter || waits) return;
-  const double share = (processor_seconds() - started_processor_) / (passed * threads());
-  if (share >= kBusyShare) return;
-  noticed_busy_cores_ = true;
-  session_->progress.say(
-      threads() == 1
-          ? fmt::format("[roll] the thread works {:.0f} % of the time: other programs use the cores",
-                        100 * share)
-          : fmt::format(
-                "[roll] {} threads work {:.0f} % of the time: other programs use the cores, or the scene "
-                "is too small for so many; fewer threads (-t) may be faster",
-                threads(), 100 * share));
+/// Obeys a request of another process. One that is being obeyed delays the next.
+void Rolling::obey_request() {
+  if (answers_) return;
+  const std::optional<RunRequest> request = session_->folder.take_request();
+  if (request == RunRequest::checkpoint) answers_ = write_checkpoint();
+  if (request == RunRequest::frame) answers_ = write_frame();
+  if (request == RunRequest::stop) leave("tread ctl");
 }
 
 void Rolling::check_disk() {
@@ -205,12 +199,13 @@ void Rolling::check_penetration() {
         1e6 * penetration, 1e6 * *stop.penetration));
 }
 
-/// Writes a checkpoint, except of a motion that is not finite; the energies' watch soon ends such a motion.
-void Rolling::write_checkpoint() {
+/// Begins a checkpoint. Returns false for a motion that is not finite; the energies' watch soon ends such a
+/// motion.
+bool Rolling::write_checkpoint() {
   wait_for_writer();
   require_files();
   followers_.fetch(*simulation_);
-  if (!simulation_->finite()) return;
+  if (!simulation_->finite()) return false;
   const Mark mark{simulation_->steps(), simulation_->time()};
   results_->seconds_rolling = seconds();
   writer_.start([this, mark, content = pack_all(files_->patch_bytes())]() mutable {
@@ -219,6 +214,7 @@ void Rolling::write_checkpoint() {
   being_written_ = mark;
   checkpoint_at_ = session_->progress.seconds();
   if (!Hdf5File::thread_safe()) wait_for_writer();
+  return true;
 }
 
 void Rolling::keep_for_forks() {
@@ -233,20 +229,22 @@ void Rolling::keep_for_forks() {
       instant(simulation_->time(), simulation_->steps()), shell_word(session_->folder.path().string())));
 }
 
-/// Writes a frame of a finite motion.
-void Rolling::write_frame() {
+/// Begins a frame. Returns false for a motion that is not finite.
+bool Rolling::write_frame() {
   wait_for_writer();
   require_files();
   followers_.fetch(*simulation_);
-  if (!simulation_->finite()) return;
+  if (!simulation_->finite()) return false;
   frames_->copy(*simulation_);
   writer_.start([this] { frames_->write(); });
   if (!Hdf5File::thread_safe()) wait_for_writer();
+  return true;
 }
 
 void Rolling::wait_for_writer() {
   const std::optional<Mark> mark = std::exchange(being_written_, std::nullopt);
   writer_.wait();
+  if (std::exchange(answers_, false)) session_->folder.answer_request();
   if (!mark) return;
   written_ = mark;
   session_->progress.say(fmt::format("[checkpoint] {}", instant(mark->time, mark->steps)));
@@ -283,7 +281,7 @@ std::string Rolling::how_to_go_on() const {
       fmt::format("the last checkpoint is that of {}: ", instant(written_->time, written_->steps));
   const int most = model_->scene.stop.steps;
   if (most > 0 && written_->steps >= most)
-    return last + resume_text(session_->folder.path(), "--set stop.steps=0") + " goes on to the end";
+    return last + session_->resume_command("--set stop.steps=0") + " goes on to the end";
   last += session_->resume_command() + " goes on from there";
   if (!std::is_same_v<E, NumericalError>) return last;
   return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
@@ -316,56 +314,6 @@ void Rolling::close_quietly() {
 
 void Rolling::require_files() const {
   if (!files_->in_place()) throw ResourceError(moved_text(session_->folder.path()));
-}
-
-double Rolling::seconds() const {
-  return seconds_before_ + session_->progress.seconds() - started_;
-}
-
-double Rolling::step_seconds() const {
-  return (session_->progress.seconds() - started_) /
-         static_cast<double>(simulation_->steps() - started_steps_);
-}
-
-double Rolling::seconds_left() const {
-  return step_seconds() * static_cast<double>(end_ - simulation_->steps());
-}
-
-std::string Rolling::progress_line() const {
-  const Sample& sample = simulation_->sample();
-  const double end = model_->scene.motion->duration;
-  std::string line =
-      fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation_->time(), 1e3 * end,
-                  100 * simulation_->time() / end, simulation_->dt());
-  if (model_->contact)
-    line += fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x,
-                        1e-3 * sample.vertical_force, sample.traction());
-  line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
-                      1e9 * step_seconds() / static_cast<double>(model_->elements()),
-                      duration_text(seconds_left()));
-  return line;
-}
-
-std::string Rolling::status() const {
-  const Sample& sample = simulation_->sample();
-  Json json = session_->status("rolling");
-  json["time_s"] = simulation_->time();
-  json["duration_s"] = model_->scene.motion->duration;
-  json["step"] = simulation_->steps();
-  json["steps"] = end_;
-  json["dt_s"] = simulation_->dt();
-  if (model_->contact) {
-    json["wheel_x_m"] = sample.wheel_x;
-    json["vertical_force_N"] = sample.vertical_force;
-    json["longitudinal_force_N"] = sample.longitudinal_force;
-  }
-  json["energy_residual_J"] = sample.energy.residual;
-  json["rolling_s"] = seconds();
-  json["left_s"] = seconds_left();
-  json["frames"] = frames_->count();
-  json["folder_bytes"] = folder_bytes(session_->folder.path());
-  json["checkpoint_time_s"] = written_ ? Json(written_->time) : Json();
-  return json_text(json);
 }
 
 void Rolling::fill_results() {

@@ -9,6 +9,7 @@
 
 #include "core/parallel/background_task.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/process/core_watch.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/results/run_results.hpp"
@@ -46,10 +47,12 @@ class Rolling {
   void keep_sample();
   void look();
   void check_penetration();
+  void obey_request();
   void check_disk();
   void keep_for_forks();
-  void write_checkpoint();
-  void write_frame();
+  bool checkpoint_is_due(double share) const;
+  bool write_checkpoint();
+  bool write_frame();
   void wait_for_writer();
   void leave(const std::string& why);
   template <class E>
@@ -81,7 +84,8 @@ class Rolling {
   std::optional<std::int64_t> fork_step_;  ///< step whose state is kept for other runs
   double started_ = 0;                     ///< start on the session's clock [s]
   std::int64_t started_steps_ = 0;
-  double started_processor_ = 0;  ///< processor time of this process at the start [s]
+  double stepping_ = 0;  ///< time of the steps and their samples since then [s]
+  CoreWatch cores_;      ///< processor time since then
   bool noticed_busy_cores_ = false;
   double seconds_before_ = 0;  ///< time that earlier processes rolled [s]
   /// Last look into the folder on the session's clock; the first one is at once. [s]
@@ -89,6 +93,7 @@ class Rolling {
   double checkpoint_at_ = 0;     ///< last checkpoint on the session's clock [s]
   std::optional<Mark> written_;  ///< last checkpoint that is safe
   std::optional<Mark> being_written_;
+  bool answers_ = false;   ///< the writer does what another process asked for
   BackgroundTask writer_;  ///< writes checkpoints and frames in turn: a checkpoint's frames are safe
 };
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/parallel/ranks.hpp"
 #include "drivers/process/version.hpp"
+#include "drivers/run/program_hash.hpp"
 #include "kernels/device/device.hpp"
 
 namespace tread {
@@ -22,6 +23,13 @@ namespace {
 /// than one process with a device.
 std::string stepping_device() {
   return device_name() + (chosen_ranks() && chosen_device() ? ", of several ranks" : "");
+}
+
+/// `--device` of such steps: cards have their own names.
+std::string_view option_of(std::string_view device) {
+  for (const std::string_view name : {"cpu", "emulated"})
+    if (device.starts_with(name)) return name;
+  return "gpu";
 }
 
 void pack_texts(const std::string& group, const std::vector<std::string>& texts, SealedContent& content) {
@@ -64,7 +72,13 @@ const std::string kSamples = "samples";
 const std::string kMeasured = "measured";
 const std::string kFormat = "made/format";
 const std::string kVersion = "made/version";
+const std::string kMadeCommit = "made/commit";    ///< program_commit()
+const std::string kMadeProgram = "made/program";  ///< program_hash()
 constexpr const char* kSteps = "state/steps";
+
+std::string commit_text(const std::string& commit) {
+  return commit.empty() ? "unknown" : commit;
+}
 
 /// First line of a resolved scene that another lacks.
 std::string line_missing_in(const std::string& other, const std::string& scene) {
@@ -191,6 +205,8 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
                        std::string patch) {
   SealedContent content = pack_order(order);
   content["made/instruction_set"] = std::string(model.internal->instruction_set());
+  content[kMadeCommit] = program_commit();
+  content[kMadeProgram] = std::vector{static_cast<std::int64_t>(program_hash())};
   content["made/device"] = stepping_device();
   content["made/lanes"] = std::vector<std::int64_t>{kLanes};
   content["made/mesh"] = fingerprint(model);
@@ -291,14 +307,20 @@ std::string other_origin(const SealedContent& content, const Model& model) {
   const std::string& set = sealed_entry<std::string>(content, "made/instruction_set");
   if (version != program_version())
     return fmt::format("version {} wrote it, this is {}", version, program_version());
+  if (content.contains(kMadeProgram) &&
+      sealed_value<std::int64_t>(content, kMadeProgram) != static_cast<std::int64_t>(program_hash()))
+    return fmt::format("another build of the program wrote it, of commit {}, and this is one of {}",
+                       commit_text(sealed_entry<std::string>(content, kMadeCommit)),
+                       commit_text(program_commit()));
   if (set != model.internal->instruction_set())
     return fmt::format("it was written with {}, this machine computes with {}", set,
                        model.internal->instruction_set());
   const std::string device =
       content.contains("made/device") ? sealed_entry<std::string>(content, "made/device") : "cpu";
   if (device != stepping_device())
-    return fmt::format("it was written by steps on the device {}, this run takes them on {}", device,
-                       stepping_device());
+    return fmt::format(
+        "it was written by steps on the device {} (--device {} goes on there), this run takes them on {}",
+        device, option_of(device), stepping_device());
   return "";
 }
 

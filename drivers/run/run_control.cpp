@@ -81,14 +81,18 @@ std::string going_on(const std::filesystem::path& folder, const Json& status) {
   return line.empty() ? "the same command" : fmt::format("`{}`", line);
 }
 
+/// The same; empty where there is none.
+Json status_if_any(const std::filesystem::path& folder) {
+  try {
+    return read_status(folder);
+  } catch (const InputError&) {  // it may hold a run that has shown none
+    return Json::object();
+  }
+}
+
 /// End of a sentence on a folder without a process.
 std::string waiting_text(const std::filesystem::path& folder) {
-  Json status = Json::object();
-  try {
-    status = read_status(folder);
-  } catch (const InputError&) {  // it may hold a run that has shown none
-  }
-  const std::string command = going_on(folder, status);
+  const std::string command = going_on(folder, status_if_any(folder));
   return command.empty() ? ", and no run waits there" : fmt::format("; {} goes on", command);
 }
 
@@ -107,12 +111,19 @@ void print_status(const std::filesystem::path& folder) {
   if (!alive) print_error(fmt::format("tread: no process works on {}\n", folder.string()));
 }
 
+/// Answer to a request of a checkpoint or frame: a study passes the request on.
+std::string written_text(const std::filesystem::path& folder, const std::string& action) {
+  return fmt::format("{} a {}", status_if_any(folder).contains("points") ? "its runs write" : "has written",
+                     action);
+}
+
 }  // namespace
 
 void control_run(const CtlOptions& options) {
   const std::filesystem::path& folder = options.folder;
   require_run_folder(folder);
   if (options.action == "status") {
+    if (!std::filesystem::exists(folder / "status.json")) throw InputError(no_run_text(folder));
     print_status(folder);
     return;
   }
@@ -129,15 +140,13 @@ void control_run(const CtlOptions& options) {
         "the preload it stops at the next iteration of Newton's method and answers other requests "
         "after the first steps",
         folder.string(), options.patience));
-  const bool unread = is_pending(folder) && !is_taken(folder);
-  if (unread) withdraw_request(folder);
-  if (unread && !stop)
-    throw InputError(fmt::format("the run in {} ended before it read the request{}", folder.string(),
-                                 waiting_text(folder)));
-  fmt::print("{}: {}\n", folder.string(),
-             unread ? "had ended before it read the request"
-             : stop ? "stopped"
-                    : "writes a " + options.action);
+  const bool ignored = is_pending(folder) && !is_taken(folder);
+  if (ignored) withdraw_request(folder);
+  if (ignored && !stop)
+    throw InputError(fmt::format("the run in {} ended before it had written a {}{}", folder.string(),
+                                 options.action, waiting_text(folder)));
+  const std::string done = stop ? "stopped" : written_text(folder, options.action);
+  fmt::print("{}: {}\n", folder.string(), ignored ? "had ended before it read the request" : done);
 }
 
 }  // namespace tread

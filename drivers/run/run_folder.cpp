@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kRequest = "request";
+constexpr const char* kTaken = "request.taken";
 constexpr const char* kStatus = "status.json";
 
 /// Locks the folder. Throws ResourceError if another process owns it, for longer than is_taken() does.
@@ -138,6 +139,11 @@ void require_run_folder(const fs::path& folder, std::string_view option) {
                                  option, folder.string()));
 }
 
+std::string no_run_text(const fs::path& folder) {
+  return fmt::format("{} holds no run: start one with `tread run SCENE -o {}`", folder.string(),
+                     shell_word(folder.string()));
+}
+
 std::string moved_text(const fs::path& folder) {
   return fmt::format(
       "{} was moved or removed while its run went on, or files in it were; `tread resume` goes on where its "
@@ -164,11 +170,11 @@ void leave_request(const fs::path& folder, RunRequest request) {
 
 void withdraw_request(const fs::path& folder) {
   std::error_code ignored;
-  fs::remove(folder / kRequest, ignored);
+  for (const char* name : {kRequest, kTaken}) fs::remove(folder / name, ignored);
 }
 
 bool is_pending(const fs::path& folder) {
-  return fs::exists(folder / kRequest);
+  return fs::exists(folder / kRequest) || fs::exists(folder / kTaken);
 }
 
 RunFolder::RunFolder(fs::path path) : identity_(std::move(path)), lock_(take(identity_.path())) {
@@ -178,12 +184,16 @@ RunFolder::RunFolder(fs::path path) : identity_(std::move(path)), lock_(take(ide
 std::optional<RunRequest> RunFolder::take_request() const {
   if (!in_place()) return std::nullopt;  // it may be another run's
   // A request that comes meanwhile stays.
-  const fs::path taken = *this / "request.taken";
+  const fs::path taken = *this / kTaken;
   if (::rename((*this / kRequest).c_str(), taken.c_str()) != 0) return std::nullopt;
   const std::optional<RunRequest> request = read_request(taken);
-  std::error_code ignored;
-  fs::remove(taken, ignored);
+  if (!request || request == RunRequest::stop) answer_request();
   return request;
+}
+
+void RunFolder::answer_request() const {
+  std::error_code ignored;
+  if (in_place()) fs::remove(*this / kTaken, ignored);
 }
 
 bool RunFolder::take_stop() const {

@@ -23,6 +23,9 @@ std::int64_t folder_bytes(const std::filesystem::path& folder);
 /// InputError where there is no such folder; `option` begins its text, "--from: ".
 void require_run_folder(const std::filesystem::path& folder, std::string_view option = "");
 
+/// Sentence on a folder in which no run has begun.
+std::string no_run_text(const std::filesystem::path& folder);
+
 /// Sentence on a run's folder whose path leads to it no more.
 std::string moved_text(const std::filesystem::path& folder);
 
@@ -41,9 +44,9 @@ enum class RunRequest { checkpoint, frame, stop };
 
 /// Leaves the request for take_request(). Throws ResourceError if it cannot be written.
 void leave_request(const std::filesystem::path& folder, RunRequest request);
-/// Removes a request that nothing has taken.
+/// Removes a request that nothing has answered.
 void withdraw_request(const std::filesystem::path& folder);
-/// Returns true if the last request still lies in the folder.
+/// Returns true if the last request has no answer yet.
 bool is_pending(const std::filesystem::path& folder);
 
 /// Ownership of the folder by one process, until the process ends in any way.
@@ -58,8 +61,11 @@ class RunFolder {
   /// Returns true while the path leads to this folder.
   bool in_place() const { return identity_.in_place(); }
 
-  /// Request of another process, once.
+  /// Request of another process, once. That to stop is answered by the end of this process, others by
+  /// answer_request().
   std::optional<RunRequest> take_request() const;
+  /// Says that what take_request() returned is done.
+  void answer_request() const;
   /// Returns true if another process asks to stop, once. Other requests stay in the folder.
   bool take_stop() const;
 

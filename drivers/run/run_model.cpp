@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/device/device_movers.hpp"
 #include "drivers/engine/start/preload.hpp"
 #include "drivers/results/scene_model.hpp"
@@ -24,6 +26,27 @@ void require_rail_for(const Scene& made, const Scene& later) {
         fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
                     "began with; state a longer duration when a run begins and end it early",
                     1e3 * later.motion->duration, 1e3 * planned));
+}
+
+void require_device_memory(const Model& model, const Device& device) {
+  const std::int64_t needed = device_need(model).bytes;
+  const std::int64_t free = device.free_bytes();
+  if (needed <= free) return;
+  const char* less = model.scene.precision == "double" ? "use scene.precision = \"mixed\", " : "";
+  throw ResourceError(fmt::format(
+      "the scene needs about {} on the device, and {} has {} free; raise scene.element_size, {}or "
+      "use --device cpu",
+      bytes_text(needed), device.name(), bytes_text(free), less));
+}
+
+void settle(const std::function<void()>& require, const std::string& option, const Progress& progress) {
+  try {
+    require();
+  } catch (const Error& error) {
+    if (option != "auto" || chosen_ranks()) throw;
+    progress.say(fmt::format("[device] --device auto: the processor takes the steps: {}", error.what()));
+    choose_device("cpu");
+  }
 }
 
 }  // namespace
@@ -65,17 +88,13 @@ void find_step(const Model& model, RunResults& results) {
   results.dt = model.scene.motion->step_safety * results.limit.stable_step;
 }
 
-void require_device_memory(const Model& model) {
-  const std::shared_ptr<Device> device = chosen_device();
-  if (!device || !model.scene.motion) return;
-  const std::int64_t needed = device_need(model).bytes;
-  const std::int64_t free = device->free_bytes();
-  if (needed <= free) return;
-  const char* less = model.scene.precision == "double" ? "use scene.precision = \"mixed\", " : "";
-  throw ResourceError(fmt::format(
-      "the scene needs about {} on the device, and {} has {} free; raise scene.element_size, {}or "
-      "use --device cpu",
-      bytes_text(needed), device->name(), bytes_text(free), less));
+void settle_device(const Scene& scene, const std::string& option, const Progress& progress) {
+  settle([&] { require_steps_of_bodies(scene); }, option, progress);
+}
+
+void settle_device(const Model& model, const std::string& option, const Progress& progress) {
+  if (!chosen_device() || !model.scene.motion) return;
+  settle([&] { require_device_memory(model, *chosen_device()); }, option, progress);
 }
 
 }  // namespace tread

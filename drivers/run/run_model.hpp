@@ -1,7 +1,10 @@
 #pragma once
 // The model of a run, as a process that goes on with the run makes it.
 
+#include <string>
+
 #include "drivers/engine/model/model.hpp"
+#include "drivers/process/progress.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/run_checkpoint.hpp"
 
@@ -26,7 +29,11 @@ Model run_model(const ResolvedScene& made, const SealedContent* state, RunResult
 /// materials' damping leaves too little of it.
 void find_step(const Model& model, RunResults& results);
 
-/// ResourceError where the chosen device lacks memory for the steps of the model, by its estimate.
-void require_device_memory(const Model& model);
+/// InputError where the scene's bodies from files exclude the chosen device or ranks. With the option "auto"
+/// the processor takes the steps then, and `progress` says why.
+void settle_device(const Scene& scene, const std::string& option, const Progress& progress);
+
+/// The same with ResourceError where the device lacks memory for the steps of the model, by its estimate.
+void settle_device(const Model& model, const std::string& option, const Progress& progress);
 
 }  // namespace tread

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -33,18 +34,21 @@ void rehearse_fork(const RunSession& session, const Fork& fork) {
   adopt_later_values(model, session.resolved.scene);
   require_same_mesh(fork.content, model);
   require_same_past(fork, model, results.samples);
-  require_device_memory(model);
+  settle_device(model, session.options.device, session.progress);
   require_disk(model, results.dt, file_bytes(session.order.scene));
+  require_free_disk(session, model, results.dt);
   require_fork_step(model, results.dt, fork.order.origin->steps);
 }
 
 /// Finds the faults of a scene that its model shows.
-void rehearse_scene(const ResolvedScene& resolved) {
+void rehearse_scene(const RunSession& session) {
+  const ResolvedScene& resolved = session.resolved;
   const Model model = scene_model(resolved.scene, resolved);
-  require_device_memory(model);
+  settle_device(model, session.options.device, session.progress);
   RunResults results;
   find_step(model, results);
   require_runnable(model, results.dt, file_bytes(resolved.source));
+  require_free_disk(session, model, results.dt);
 }
 
 /// Finds the faults of a run that show before the preload, before an earlier run is thrown away.
@@ -53,7 +57,7 @@ void rehearse(const RunSession& session, const Fork* fork) {
   if (fork)
     rehearse_fork(session, *fork);
   else
-    rehearse_scene(session.resolved);
+    rehearse_scene(session);
 }
 
 /// InputError where the corrugation would turn elements inside out. Nothing for a model that has it.
@@ -61,6 +65,21 @@ void require_corrugation(const Model& model) {
   const std::optional<CorrugationSpec>& spec = model.scene.corrugation;
   if (!spec || spec->apply != "nodes" || !model.contact->corrugation().smooth()) return;
   const Model corrugated(model.scene, spec->centre.value_or(0));
+}
+
+/// Size of the files that the run still has to write, by the estimate for a time step [s], beyond those in
+/// its folder [B].
+std::int64_t run_bytes_to_come(const RunSession& session, const Model& model, double dt) {
+  const std::int64_t there = folder_bytes(session.folder.path());
+  return std::max<std::int64_t>(disk_use(model, dt, file_bytes(session.order.scene)).total() - there, 0);
+}
+
+/// Time step whose run has at least as many samples and frames as one of any other step [s].
+double shortest_step(const Scene& scene) {
+  constexpr double kMostSamples = 1e12;
+  const double frames = std::max(scene.output.frames, 1);
+  return std::clamp(scene.output.history_interval, scene.motion->duration / kMostSamples,
+                    scene.motion->duration / frames);
 }
 
 /// Name of results that the session's folder keeps without a run that ends or has begun, such as copies of
@@ -84,6 +103,20 @@ void require_disk(const Model& model, double dt, std::int64_t files) {
         fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
                     "output.history_interval, or state less output.frames",
                     bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
+}
+
+void require_free_disk(const RunSession& session, const Model& model, double dt) {
+  if (!model.scene.motion) return;
+  const std::filesystem::path& folder = session.folder.path();
+  if (dt == 0) {
+    const std::int64_t most = run_bytes_to_come(session, model, shortest_step(model.scene));
+    if (most <= free_disk(folder).value_or(most)) return;
+    RunResults results;
+    find_step(model, results);
+    dt = results.dt;
+  }
+  require_free_disk("the run", run_bytes_to_come(session, model, dt), folder,
+                    "free some, state less output.frames or choose another folder with -o");
 }
 
 void require_runnable(const Model& model, double dt, std::int64_t files) {

@@ -15,6 +15,10 @@ namespace tread {
 /// file_bytes() of the scene.
 void require_disk(const Model& model, double dt, std::int64_t files);
 
+/// ResourceError where the run's files need more, beyond those in its folder, than the disk has left. Nothing
+/// without motion. `dt`: time step; 0: not known yet, and found only where the disk may be too small [s].
+void require_free_disk(const RunSession& session, const Model& model, double dt);
+
 /// Throws InputError for what a run of the model refuses although its mesh can be built: a patch that would
 /// slide, a way beyond the rail, elements that the corrugation turns inside out, probes outside of their
 /// bodies, files beyond output.disk_limit, a start too near for [forks]. `dt`: time step; 0: not known,

@@ -111,13 +111,17 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
 /// `results`: with the step of the smooth rail, if that is known.
 void choose_step(const RunSession& session, const Model& model, RunResults& results) {
   const bool moved_nodes = model.scene.corrugation && model.scene.corrugation->apply == "nodes";
-  if (moved_nodes || results.dt == 0) find_step(model, results);
+  if (moved_nodes || results.dt == 0) {
+    session.enter("step", "looks for the largest stable one");
+    find_step(model, results);
+  }
   session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
                                     step_count(model.scene, results.dt), results.limit.reason));
   require_disk(model, results.dt, file_bytes(session.order.scene));
 }
 
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
+  session.show("results", "evaluates and writes them");
   evaluate(model, results);
   leave_surface(model, results, session.folder.path());
   results.warnings = run_warnings(model, results);
@@ -171,21 +175,23 @@ void carry_out(RunSession& session, SealedContent* checkpoint, const Fork* fork 
   results.origin = session.order.origin;
   Model model = run_model(made, checkpoint, results);
   adopt_later_values(model, session.resolved.scene);
-  require_device_memory(model);
+  settle_device(model, session.options.device, session.progress);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} parts, {}", model.elements(), model.nodes(),
                                     model.mesh.parts(), duration_text(seconds_mesh)));
   const std::vector<std::string> of_mesh = resolution_warnings(model);
-  for (const std::string& warning : of_mesh) session.progress.say("[warning] " + warning);
+  for (const std::string& warning : of_mesh) session.progress.warn("[warning] " + warning);
   for (const std::string& note : body_notes(model.scene)) session.progress.say("[note] " + note);
   const Scene& scene = model.scene;
   if (checkpoint) {
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
+    require_free_disk(session, model, results.dt);
   } else {
     if (scene.output.disk_limit || scene.forks) find_step(model, results);  // takes seconds on fine meshes
     require_runnable(model, results.dt, file_bytes(session.order.scene));
+    require_free_disk(session, model, results.dt);
     find_statics(session, made, model, results);
     if (model.contact && !scene.motion) leave_static_patch(model, results, session.folder.path());
     model.apply_corrugation(deepest_line(scene, results.preload));
@@ -215,7 +221,7 @@ void carry_out(RunSession& session, SealedContent* checkpoint, const Fork* fork 
   }
   for (const std::string& warning : results.warnings)
     if (std::find(of_mesh.begin(), of_mesh.end(), warning) == of_mesh.end())
-      session.progress.say("[warning] " + warning);
+      session.progress.warn("[warning] " + warning);
   session.checkpoints.clear();
   session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
                                     duration_text(session.progress.seconds())));
@@ -323,6 +329,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   const bool dated = options.output.empty();
   const bool holds_run = !dated && require_folder_of(options.output, "run");
   take_machine(options);
+  settle_device(resolved.scene, options.device, Progress(options.quiet));
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
   std::optional<Fork> fork;
@@ -346,8 +353,7 @@ void resume_run(const RunOptions& options) {
   RunSession session(options);
   if (!session.checkpoints.holds_run()) {
     if (!std::filesystem::exists(session.folder / "summary.json"))
-      throw InputError(fmt::format("{} holds no run: start one with `tread run SCENE -o {}`",
-                                   options.output.string(), options.output.string()));
+      throw InputError(no_run_text(options.output));
     if (!options.overrides.empty())
       throw InputError(
           fmt::format("--set {}: {} holds a finished run, which cannot go on; start another one with these "
@@ -362,6 +368,7 @@ void resume_run(const RunOptions& options) {
   }
   std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
   read_order(session, found);
+  settle_device(session.resolved.scene, options.device, session.progress);
   if (found)
     session.progress.say(fmt::format("[resume] from {}", found->path.string()));
   else if (!options.overrides.empty())

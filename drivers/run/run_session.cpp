@@ -9,6 +9,7 @@
 #include "drivers/process/host.hpp"
 #include "drivers/process/version.hpp"
 #include "io/files/output_file.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -18,6 +19,13 @@ namespace {
 std::filesystem::path made(const std::filesystem::path& directory) {
   make_directory(directory);
   return directory;
+}
+
+/// Command that goes on with the run of these options.
+std::string resume_text_of(const RunOptions& given, std::string more = "") {
+  if (!given.device.empty() && given.device != "cpu")
+    more += (more.empty() ? "--device " : " --device ") + shell_word(given.device);
+  return resume_text(given.output, more);
 }
 
 /// Sentence on a signal before the first step, with the command that goes on.
@@ -31,14 +39,14 @@ std::string early_word(const std::string& command, bool from_checkpoint) {
 std::string first_word(const RunOptions& given, const CheckpointFolder& checkpoints) {
   const bool goes_on = !given.overwrite && !checkpoints.states().empty();
   const bool as_typed = given.overwrite || !given.from.empty() || !given.overrides.empty();
-  return early_word(as_typed ? "the same command" : resume_text(given.output), goes_on);
+  return early_word(as_typed ? "the same command" : resume_text_of(given), goes_on);
 }
 
 /// A launcher that has lost a rank asks the others to stop, and ends them soon after.
-std::string last_word(const std::filesystem::path& directory) {
+std::string last_word(const RunOptions& given) {
   if (!chosen_ranks()) return "";
   return fmt::format("tread: asked to stop, or a rank is lost; {} goes on from the last checkpoint",
-                     resume_text(directory));
+                     resume_text_of(given));
 }
 
 }  // namespace
@@ -48,13 +56,13 @@ RunSession::RunSession(const RunOptions& given)
       folder(made(given.output)),
       checkpoints(given.output / kCheckpointFolder),
       progress(given.quiet),
-      interruption(first_word(given, checkpoints),
-                   fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
-                               resume_text(given.output)),
-                   last_word(given.output)) {}
+      interruption(
+          first_word(given, checkpoints),
+          fmt::format("tread: stopped at once; {} goes on from the last checkpoint", resume_text_of(given)),
+          last_word(given)) {}
 
-std::string RunSession::resume_command() const {
-  return resume_text(folder.path());
+std::string RunSession::resume_command(const std::string& more) const {
+  return resume_text_of(options, more);
 }
 
 void RunSession::begin_with_state() {

@@ -25,8 +25,9 @@ struct RunSession {
   RunOrder order;
   ResolvedScene resolved;
 
-  /// Command that goes on with the run: "`tread resume out`".
-  std::string resume_command() const;
+  /// Command that goes on with the run on its device: "`tread resume out --device gpu`". `more`: other
+  /// options.
+  std::string resume_command(const std::string& more = "") const;
 
   /// Lets a signal before the first step name that command: the first state is written.
   void begin_with_state();
