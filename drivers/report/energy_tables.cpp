@@ -12,7 +12,7 @@ namespace tread {
 std::string energy_error_text(const Model& model, const RunResults& r) {
   return fmt::format(
       "Energy error {} %: largest residual over the sum of frictional work, losses in dampers{}{} and range "
-      "of strain energy{}.",
+      "of strain energy, at least 1 % of the strain energy{}.",
       readable(100 * r.energy_error, 2), model.has_branches() ? ", losses in materials" : "",
       has_laws(model.mesh) ? ", plastic work" : "", uncounted_loss(model));
 }

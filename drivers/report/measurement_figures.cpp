@@ -129,10 +129,14 @@ Figure spectrum_figure(const RunResults& results) {
       octaves.y.push_back(1e-3 * spectrum.rms[i]);
     }
   figure.panels = {panel("F_N [kN]", {std::move(lines)}, {}, 200)};
+  for (const ForceSine& ripple : results.ripples)
+    figure.positions.push_back({ripple.frequency, fmt::format("{:.3g} mm", 1e3 * ripple.length)});
   if (!octaves.x.empty()) figure.panels.push_back(panel("F_N [kN]", {std::move(octaves)}, {}, 160));
   figure.caption =
       "Mean and trend taken off, Hann's window: a sine between two lines shows up to 15 % less than its "
       "amplitude. Bands are at least four lines wide: a sine leaks from narrower ones into their neighbours.";
+  if (!results.ripples.empty())
+    figure.caption += " Vertical lines: frequencies at which elements of these lengths pass.";
   return figure;
 }
 

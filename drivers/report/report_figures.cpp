@@ -120,6 +120,10 @@ Figure creepage_figure(const Model& model, const RunResults& r, const std::vecto
              curve(mean, model, r, [](const Sample& s) { return 100 * s.creepage_mean; })},
             levels, 280));
   figure.panels.push_back(
+      panel("Lateral [%]",
+            {curve("lateral creepage", model, r, [](const Sample& s) { return 100 * s.lateral_creepage; })},
+            {}, 90));
+  figure.panels.push_back(
       panel("Spin [1/m]", {curve("spin creepage", model, r, [](const Sample& s) { return s.spin_creepage; })},
             {}, 90));
   figure.caption +=

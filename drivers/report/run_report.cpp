@@ -2,15 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
 #include "drivers/engine/model/station_plan.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/energy_tables.hpp"
@@ -85,15 +83,19 @@ KeyFigures rolling_figures(const Run& run) {
   const char* where = run.on_corrugation() && r.evaluated_first > run.scene().start_x()
                           ? "over the corrugation"
                           : "over the evaluated stretch";
-  KeyFigures figures = {{fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
-                        {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
-                        {"Dynamic factor", readable(r.dynamic_factor(), 3), ""},
-                        {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
-                        {"F_L / F_N, steady", readable(r.traction_coefficient, 3), ""},
-                        {"Creepage, steady", readable(100 * r.creepage, 3), "%"},
-                        {"Frictional work per way over F_L",
-                         r.creepage_of_work ? readable(100 * *r.creepage_of_work, 3) : "–", "%"},
-                        {"Energy error", readable(100 * r.energy_error, 2), "%"}};
+  KeyFigures figures = {
+      {fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
+      {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
+      {"Dynamic factor", readable(r.dynamic_factor(), 3), ""},
+      {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
+      {"F_L / F_N, steady",
+       readable(r.traction_coefficient, 3) +
+           (r.traction_target ? fmt::format(" (target {})", readable(*r.traction_target, 3)) : ""),
+       ""},
+      {"Creepage, steady", stands(run.scene()) ? "–" : readable(100 * r.creepage, 3), "%"},
+      {"Frictional work per way over F_L", r.creepage_of_work ? readable(100 * *r.creepage_of_work, 3) : "–",
+       "%"},
+      {"Energy error", readable(100 * r.energy_error, 2), "%"}};
   return figures;
 }
 
@@ -124,8 +126,8 @@ Chapter result_chapter(const Run& run) {
     text += fmt::format("Largest and smallest F_N: {}.{} Steady values: means over {}.",
                         stretch(r.evaluated_first, r.evaluated_last), slip_sentence(run),
                         stretch(r.steady_first, r.steady_last));
-    if (r.driven && !torque_has_settled(run.scene(), r))
-      text += " The torque still changes or has just changed there: they are not steady yet.";
+    if (r.driven && !traction_is_steady(run.scene(), r))
+      text += " They are not steady: the chapter Warnings says why.";
     chapter.blocks.emplace_back(Text{text});
   } else if (run.model.contact) {
     chapter.blocks.emplace_back(static_figures(run));
@@ -216,13 +218,9 @@ Chapter preload_chapter(const Run& run) {
   }
   if (scene.rail && scene.rail->support == "fastenings" && run.model.contact) {
     std::string remark;
-    if (scene.rail->profile == "CN60" && scene.fastenings && !scene.sleepers && scene.alike_supports()) {
-      // I of CN60: 3217 cm4.
-      const double foundation = scene.fastenings->stiffness / scene.fastenings->spacing;
-      const double lambda = std::pow(foundation / (4 * scene.rail_material().youngs_modulus * 3217e-8), 0.25);
-      remark = fmt::format("beam on elastic foundation: {:.3f} mm",
-                           1e3 * run.model.wheel_load() * lambda / (2 * foundation));
-    }
+    if (scene.fastenings && scene.alike_supports())
+      remark = fmt::format("beam on the fastenings, foot {}: {} mm", scene.fastenings->along.kind,
+                           readable(1e3 * loaded_deflection(scene, scene.start_x(), run.model.wheel_load())));
     q.add("Rail deflection under the wheel", 1e3 * p.rail_deflection, "mm", remark);
   }
   if (run.model.index.slab >= 0) q.add("Slab deflection under the wheel", 1e6 * p.slab_deflection, "µm");

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/device/device_movers.hpp"
-#include "drivers/engine/model/surfaces.hpp"
+#include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/mesh_measures.hpp"
+#include "drivers/report/surface_check.hpp"
+#include "drivers/results/disk_use.hpp"
 #include "drivers/results/estimate.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/resolution.hpp"
@@ -35,22 +38,6 @@ std::string disk_text(const Model& model, const DiskUse& disk) {
   return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
 }
 
-/// A shape's depths and where it meets the rail, "flat on the wheel, depths of 0 to 0.73 mm, x = 0.875 to
-/// 0.925 m".
-std::string surface_text(const Scene& scene, const std::string& name, const SurfaceSpec& spec) {
-  const DepthBounds bounds = shape_of(scene, spec)->bounds();
-  std::string text =
-      fmt::format("{}: {} on the {}, depths of {:.4g} to {:.4g} mm, ", name, spec.kind,
-                  spec.on_wheel() ? "wheel" : "rail", -1e3 * bounds.highest + 0.0, 1e3 * bounds.deepest);
-  const std::vector<Span> places = places_of(scene, spec, run_span(scene));
-  if (places.empty()) return text + "which the run does not meet";
-  text += "x =";
-  for (const Span& place : places)
-    text +=
-        fmt::format("{} {:.4g} to {:.4g} m", &place == &places.front() ? "" : ",", place.first, place.last);
-  return text;
-}
-
 /// "body.disc.tread: 4,200 nodes of the tread follow its faces, 0.231 mm off before at the most"
 std::string tie_text(const Model& model, std::size_t i) {
   const BodyTieSpec& spec = model.body_ties[i];
@@ -62,10 +49,61 @@ std::string tie_text(const Model& model, std::size_t i) {
                      grouped(static_cast<std::int64_t>(made.nodes.size())), who, 1e3 * made.farthest);
 }
 
+/// Returns true where the program chooses the web's thickness.
+bool sizes_web(const Model& model) {
+  const WheelSpec& wheel = *model.scene.wheel;
+  return model.web_thickness > 0 && wheel.web == "stated" && !wheel.web_thickness && !wheel.brake_rings;
+}
+
+/// "588.5 kg, inertia 45.5 kg m2 about the axle, 56.1 kg m2 across it; web 52.7 mm, sized by wheel.mass"
+std::string wheelset_text(const Model& model) {
+  constexpr double kUsualThinnest = 18e-3, kUsualThickest = 40e-3;  // of webs [m]
+  const SpinningBody& body = *model.wheelset;
+  std::string text = fmt::format("{:.4g} kg, inertia {:.4g} kg m2 about the axle, {:.4g} kg m2 across it",
+                                 body.mass(), body.inertia(), body.transverse_inertia());
+  if (model.web_thickness > 0) text += fmt::format("; web {:.1f} mm", 1e3 * model.web_thickness);
+  if (!sizes_web(model)) return text;
+  text += ", sized by wheel.mass";
+  if (model.web_thickness >= kUsualThinnest && model.web_thickness <= kUsualThickest) return text;
+  return text +
+         fmt::format("; wheels have about {:g} to {:g} mm", 1e3 * kUsualThinnest, 1e3 * kUsualThickest);
+}
+
+/// "87.57 kN on the rail: 8000 kg sprung, 340 kg unsprung, 586.1 kg of the wheel at 9.81 m/s2"; beside it the
+/// axle load of a half wheelset.
+std::string load_text(const Model& model) {
+  const Scene& scene = model.scene;
+  std::string parts;
+  if (const std::optional<VehicleSpec>& vehicle = scene.vehicle)
+    parts =
+        fmt::format("{:.6g} kg sprung, {:.6g} kg unsprung, ", vehicle->sprung_mass, vehicle->unsprung_mass);
+  if (scene.load) parts = fmt::format("{:.6g} kN pressed on the wheel, ", 1e-3 * scene.load->wheel_load);
+  const double load = model.wheel_load();
+  return fmt::format(
+      "{:.4g} kN on the rail: {}{:.5g} kg of the wheel at {:.4g} m/s2{}", 1e-3 * load, parts,
+      model.wheelset->mass(), scene.gravity,
+      scene.wheel->shape == "half_wheelset" ? fmt::format("; axle load {:.4g} kN", 2e-3 * load) : "");
+}
+
 }  // namespace
 
+std::vector<std::string> check_warnings(const Model& model, const Estimate& e) {
+  std::vector<std::string> warnings = resolution_warnings(model);
+  if (const std::int64_t there = machine_memory(); e.memory > there)
+    warnings.push_back(fmt::format(
+        "a run needs about {} of memory, this machine has {}: raise scene.element_size or shorten "
+        "solution_zone.length",
+        bytes_text(e.memory), bytes_text(there)));
+  if (const std::optional<std::int64_t> left = free_disk("."); left && e.disk.total() > *left)
+    warnings.push_back(fmt::format(
+        "a run needs about {} of disk, this folder's has {} left: free some, choose another folder "
+        "for results with -o, or state less output.frames",
+        bytes_text(e.disk.total()), bytes_text(*left)));
+  return warnings;
+}
+
 std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e, bool verbose) {
-  const std::vector<std::string> warnings = resolution_warnings(model);
+  const std::vector<std::string> warnings = check_warnings(model, e);
   std::string text = fmt::format("{}: {}\n", resolved.name,
                                  warnings.empty() ? "no problems found" : "no errors, but warnings");
   for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
@@ -81,6 +119,9 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("",
          fmt::format("replaces the surface of the head; the section below stays that of {}", rail->section));
   }
+  const bool flexible = model.wheelset && model.scene.wheel->shape == "half_wheelset";
+  if (flexible) line("Wheelset", wheelset_text(model));
+  if (model.wheel_load() > 0) line("Load", load_text(model));
   const char* of_body = "Body";
   for (const auto& [name, spec] : model.scene.bodies) {
     line(of_body,
@@ -105,9 +146,9 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
                            e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
   if (chosen_device()) {
     const DeviceNeed need = device_need(model);
-    line("Device", fmt::format("{}, about {}; the processor moves {} of {} nodes", device_name(),
-                               bytes_text(need.bytes), grouped(std::min(need.host_nodes, model.nodes())),
-                               grouped(model.nodes())));
+    line("Device", fmt::format("{}, about {}; the processor moves {} of {} nodes; its time stands above",
+                               device_name(), bytes_text(need.bytes),
+                               grouped(std::min(need.host_nodes, model.nodes())), grouped(model.nodes())));
   }
   if (verbose)
     text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
@@ -116,7 +157,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
 
 Json check_json(const Model& model, const Estimate& e) {
   Json json = {{"ok", true}, {"problems", Json::array()}};
-  json["warnings"] = resolution_warnings(model);
+  json["warnings"] = check_warnings(model, e);
   json["notes"] = body_notes(model.scene);
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
@@ -126,6 +167,16 @@ Json check_json(const Model& model, const Estimate& e) {
   };
   for (const SweptBlock& block : model.mesh.blocks) add_part(block);
   for (const HexBody& body : model.mesh.bodies) add_part(body);
+  if (model.wheel_load() > 0) json["wheel_load_N"] = model.wheel_load();
+  if (model.wheelset && model.scene.wheel->shape == "half_wheelset") {
+    json["wheelset"] = {{"mass_kg", model.wheelset->mass()},
+                        {"polar_inertia_kg_m2", model.wheelset->inertia()},
+                        {"transverse_inertia_kg_m2", model.wheelset->transverse_inertia()},
+                        {"web_thickness_m", model.web_thickness},
+                        {"web_sized_by_mass", sizes_web(model)}};
+  }
+  for (const auto& [name, spec] : model.scene.surfaces)
+    json["surfaces"].push_back(surface_shape_json(model.scene, name, spec));
   if (e.steps > 0) {
     json["dt_s"] = e.dt;
     json["stable_step_s"] = e.limit.stable_step;
@@ -142,6 +193,7 @@ Json check_json(const Model& model, const Estimate& e) {
   if (chosen_device()) {
     const DeviceNeed need = device_need(model);
     json["device_bytes"] = need.bytes;
+    json["times_of"] = "cpu";
     json["host_nodes"] = std::min(need.host_nodes, model.nodes());
   }
   json["preload_s"] = e.preload_seconds;

@@ -181,6 +181,22 @@ std::string unmet_warning(const Model& model, const std::string& name, const Sur
       name, place.first, place.last, std::numbers::pi * scene.wheel->diameter, way.first, way.last, name);
 }
 
+std::string coarse_surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
+  const std::optional<double> length = shortest_length(spec, model.wheel_radius());
+  return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
+}
+
+/// Sentences where the corrugation has too few elements along or across.
+void add_coarse_corrugation(const Model& model, std::vector<std::string>& warnings) {
+  const CorrugationSpec& spec = *model.scene.corrugation;
+  const double element = model.sizes.contact;
+  if (!spec.in_file())
+    warnings.push_back(
+        length_warning("a wave of the corrugation", spec.shortest_wave(), element, "the wave"));
+  if (spec.kind != "map")
+    warnings.push_back(length_warning("the width of the corrugation", 2 * spec.width, element, "it"));
+}
+
 std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   const Scene& scene = model.scene;
   const std::vector<ZoneSpec> zones = scene.all_zones();
@@ -202,26 +218,20 @@ std::string surface_warning(const Model& model, const std::string& name, const S
           name, places.front().first, places.front().last, zones.front().start, zones.front().end(), name,
           name);
   }
-  const std::optional<double> length = shortest_length(spec, model.wheel_radius());
-  return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
+  return coarse_surface_warning(model, name, spec);
 }
 
 void add_corrugation_warnings(const Model& model, std::vector<std::string>& warnings) {
   const CorrugationSpec& spec = *model.scene.corrugation;
   const Corrugation corrugation = corrugation_of(spec, spec.centre.value_or(0));
-  const double element = model.sizes.contact;
   warnings.push_back(start_warning(model, corrugation));
   if (spec.centre)
     warnings.push_back(beside_warning(model, "corrugation", span_across(spec), "has no effect"));
   if (spec.in_file()) {
     warnings.push_back(step_warning(spec));
     warnings.push_back(side_warning(model));
-  } else {
-    warnings.push_back(
-        length_warning("a wave of the corrugation", spec.shortest_wave(), element, "the wave"));
   }
-  if (spec.kind != "map")
-    warnings.push_back(length_warning("the width of the corrugation", 2 * spec.width, element, "it"));
+  add_coarse_corrugation(model, warnings);
   const double bound = corrugation.steepest();
   warnings.push_back(slope_warning("the corrugation", spec.kind == "sine" ? bound : bound / kBoundOverSecants,
                                    kSlope, depth_key(spec)));
@@ -243,6 +253,15 @@ void add_surface_warnings(const Model& model, const std::string& name, const Sur
 }
 
 }  // namespace
+
+std::vector<std::string> coarse_depth_warnings(const Model& model) {
+  std::vector<std::string> warnings;
+  if (model.scene.corrugation) add_coarse_corrugation(model, warnings);
+  for (const auto& [name, spec] : model.scene.surfaces)
+    warnings.push_back(coarse_surface_warning(model, name, spec));
+  std::erase(warnings, "");
+  return warnings;
+}
 
 void add_depth_warnings(const Model& model, std::vector<std::string>& warnings) {
   if (model.scene.corrugation) add_corrugation_warnings(model, warnings);

@@ -12,4 +12,7 @@ namespace tread {
 /// Appends sentences on the depths of a model with contact; "" where one is sound.
 void add_depth_warnings(const Model& model, std::vector<std::string>& warnings);
 
+/// Sentences on lengths of the depths with too few elements; empty where the mesh resolves all.
+std::vector<std::string> coarse_depth_warnings(const Model& model);
+
 }  // namespace tread

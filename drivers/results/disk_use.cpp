@@ -1,9 +1,15 @@
 #include "drivers/results/disk_use.hpp"
 
+#include <fmt/core.h>
+
+#include <system_error>
+
+#include "core/error.hpp"
 #include "drivers/engine/step_features.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/run_results.hpp"
+#include "io/report/plain_text.hpp"
 
 namespace tread {
 
@@ -54,6 +60,21 @@ DiskUse disk_use(const Model& model, double dt, std::int64_t files) {
         bytes.mesh + frames * static_cast<std::int64_t>(kFrameShare * static_cast<double>(bytes.frame));
   }
   return use;
+}
+
+std::optional<std::int64_t> free_disk(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error || space.capacity == 0) return std::nullopt;
+  return static_cast<std::int64_t>(space.available);
+}
+
+void require_free_disk(const std::string& who, std::int64_t needed, const std::filesystem::path& folder,
+                       const std::string& way_out) {
+  const std::optional<std::int64_t> left = free_disk(folder);
+  if (!left || needed <= *left) return;
+  throw ResourceError(fmt::format("{} needs about {} more, the disk of {} has {} left; {}", who,
+                                  bytes_text(needed), folder.string(), bytes_text(*left), way_out));
 }
 
 }  // namespace tread

@@ -2,6 +2,9 @@
 // Disk use of a run.
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "drivers/engine/model/model.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -25,5 +28,13 @@ std::int64_t file_bytes(const SceneSource& source);
 /// Disk use of a run with step `dt` [s]. 0: disk use of its statics alone. `files`: file_bytes() of its
 /// scene.
 DiskUse disk_use(const Model& model, double dt, std::int64_t files = 0);
+
+/// Space that the disk of a folder has left [B]; nullopt where its file system does not say.
+std::optional<std::int64_t> free_disk(const std::filesystem::path& folder);
+
+/// ResourceError where the disk of `folder` has less space left than `who`, "the run", needs [B]. `way_out`:
+/// "free some or ...".
+void require_free_disk(const std::string& who, std::int64_t needed, const std::filesystem::path& folder,
+                       const std::string& way_out);
 
 }  // namespace tread

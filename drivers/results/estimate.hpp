@@ -22,8 +22,16 @@ struct Estimate {
   double seconds() const { return preload_seconds + rolling_seconds; }
 };
 
-/// Estimate with the threads in use, from a few measured applications of the model's stiffness. Applies the
-/// scene's corrugation. `files`: file_bytes() of the scene.
+/// Measured times by element; 0: not measured yet [s].
+struct ElementTimes {
+  double stiffness = 0;  ///< an application in double, as the preload applies it
+  double step = 0;       ///< force and motion of a step
+};
+
+/// Estimate for the processor with the threads in use, from a few measured applications of the model's
+/// stiffness. Applies the scene's corrugation. `files`: file_bytes() of the scene. `times`: those of a model
+/// with the same elements; this one's where they are not measured yet.
+Estimate estimate(Model& model, std::int64_t files, ElementTimes& times);
 Estimate estimate(Model& model, std::int64_t files = 0);
 
 }  // namespace tread

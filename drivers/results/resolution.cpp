@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/geometry/point_scatter.hpp"
+#include "core/geometry/profiles.hpp"
 #include "core/mesh/structured.hpp"
 #include "drivers/engine/model/body_point.hpp"
 #include "drivers/engine/model/lateral_gap.hpp"
@@ -39,14 +40,24 @@ double shorter_axis(const Model& model) {
   return 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
 }
 
+/// Part of patch_warning() on the lengths along which elements pass: those of all speeds.
+std::string ripple_text(const Model& model, double across) {
+  if (stands(model.scene)) return "";
+  const double pitch = 1e3 * model.sizes.contact;
+  return fmt::format("; below {:g}, F_N ripples as elements pass, every {}{:.3g} mm beside the solution zone",
+                     kElementsOfForce,
+                     across < kElementsOfForce ? fmt::format("{:.3g} mm and every ", pitch) : "",
+                     pitch * model.sizes.approach_ratio);
+}
+
 std::string patch_warning(const Model& model) {
   const std::optional<double> across = too_few_elements_across_patch(model);
   if (!across) return "";
   const double shorter = shorter_axis(model);
   return fmt::format(
       "the contact patch has {:.1f} elements across ({:.3g} mm of Hertz on elements of {:.3g} mm): "
-      "below {:g}, pressures and stresses are too low and slip, shear and creepage are not resolved; {}",
-      *across, 1e3 * shorter, 1e3 * model.sizes.contact, kElementsOfPatch,
+      "below {:g}, pressures and stresses are too low and slip, shear and creepage are not resolved{}; {}",
+      *across, 1e3 * shorter, 1e3 * model.sizes.contact, kElementsOfPatch, ripple_text(model, *across),
       resolving_size(shorter / kElementsOfPatch, "it"));
 }
 
@@ -114,6 +125,14 @@ std::string profile_warning(const char* table, const std::vector<double>& y, con
       "the points of {}.profile scatter by {:.2g} um about a smooth line, and pressures with them; "
       "{}.profile_smoothing = \"{:.2g} mm\" smooths it",
       table, 1e6 * scatter, table, 1e3 * smoothing_of(scatter));
+}
+
+/// Sentence where a head from a file leans already, or to the field side.
+std::string lean_warning(const RailSpec& rail) {
+  if (rail.profile_y.empty()) return "";
+  const double lean = head_lean(curve_through(rail.profile_y, rail.profile_z, "rail.profile"), 0);
+  if (lean == 0 || (lean > 0 && rail.inclination == 0)) return "";
+  return "rail.profile: " + lean_hint(lean);
 }
 
 /// Sentence where the histories have hardly a sample.
@@ -191,6 +210,52 @@ std::string branch_warning(const Model& model, const Material& material) {
       material.name, 100 * rise, 1e-3 * frequency, 100 * kStiffer, 1.01e-3 * enough);
 }
 
+/// Largest pressure of Hertz under the static load, p_0 [Pa].
+double hertz_pressure(const Model& model) {
+  if (model.line_width == 0) return model.hertz_patch.max_pressure;
+  return 2 / std::numbers::pi * model.line_load() / model.line_semi_axis();
+}
+
+/// Sentence where a material yields under the wheel. [docs/records/verification.md]
+std::string plastic_warning(const Model& model, const Material& material) {
+  constexpr double kFirstYield = 1.6;  ///< p_0 over the yield stress [theory.md, Plasticity]
+  constexpr double kBeyondRails = 6;   ///< p_0 over the yield stress that no wheel or rail bears
+  if (material.law != "j2" || model.wheel_load() <= 0) return "";
+  const double pressure = hertz_pressure(model);
+  const double ratio = pressure / material.yield_stress;
+  if (ratio <= kFirstYield) return "";
+  return fmt::format(
+      "p_0 = {:.4g} MPa of Hertz is {:.3g} times material.{}.yield_stress = {:.4g} MPa: above {}",
+      1e-6 * pressure, ratio, material.name, 1e-6 * material.yield_stress,
+      ratio > kBeyondRails
+          ? fmt::format("{:g} no wheel or rail bears it; look at the unit of yield_stress", kBeyondRails)
+          : fmt::format(
+                "{:g} the material yields, and plastic work needs a finer mesh than forces (on 2.2 mm a "
+                "quarter was missing); a second run with a smaller scene.element_size shows its error",
+                kFirstYield));
+}
+
+/// Sentence where the mesh does not resolve the waves of slip that decay under falling friction, so that the
+/// mesh decides how F_L swings. [contact-choices.md, eq. 10e]
+std::string memory_warning(const Model& model) {
+  constexpr double kElementsOfSlip = 4;
+  const ContactSpec& contact = *model.scene.contact;
+  if (contact.friction_law != "falling" || model.wheel_load() <= 0) return "";
+  const double shear = model.scene.elastic_pair().alike().shear_modulus();                // [Pa]
+  const double radiation = 0.5 * std::sqrt(shear * model.scene.head_material().density);  // G / 2c [Pa s/m]
+  // V p |df/dv| is largest at the slip speed v_c.
+  const double fall = (contact.friction - contact.friction_fast) / std::numbers::e * hertz_pressure(model);
+  const double number = 2 / shear * (fall - radiation * contact.friction_speed);  // L times wavenumber [-]
+  const double least = kElementsOfSlip * model.sizes.contact * number / (2 * std::numbers::pi);
+  if (contact.friction_memory >= least) return "";
+  const double elements = kElementsOfSlip * contact.friction_memory / least;  // in the shortest that grows
+  return fmt::format(
+      "contact.friction_memory = {:.3g} um lets waves of slip grow down to {:.2g} mm, {:.2g} elements: below "
+      "{:g}, the mesh decides how F_L swings; state at least \"{:.2g} um\", or a smaller scene.element_size",
+      1e6 * contact.friction_memory, 1e3 * elements * model.sizes.contact, elements, kElementsOfSlip,
+      1.05e6 * least);
+}
+
 /// Compliances of a slab on its mortar at a point [m/N].
 struct SlabCompliance {
   double sheared;  ///< of nodes that move vertically
@@ -231,13 +296,17 @@ void add_contact_warnings(const Model& model, std::vector<std::string>& warnings
   const RailSpec& rail = *model.scene.rail;
   warnings.push_back(profile_warning("wheel", wheel.profile_y, wheel.profile_z));
   warnings.push_back(profile_warning("rail", rail.profile_y, rail.profile_z));
+  warnings.push_back(lean_warning(rail));
   warnings.push_back(beam_warning(model));
   warnings.push_back(patch_warning(model));
   warnings.push_back(edge_warning(model));
   warnings.push_back(stress_depth_warning(model));
   const Material &of_wheel = model.scene.wheel_material(), &of_rail = model.scene.head_material();
-  warnings.push_back(branch_warning(model, of_wheel));
-  if (&of_rail != &of_wheel) warnings.push_back(branch_warning(model, of_rail));
+  for (const auto& warning : {branch_warning, plastic_warning}) {
+    warnings.push_back(warning(model, of_wheel));
+    if (&of_rail != &of_wheel) warnings.push_back(warning(model, of_rail));
+  }
+  warnings.push_back(memory_warning(model));
   add_way_warnings(model, warnings);
   add_depth_warnings(model, warnings);
 }

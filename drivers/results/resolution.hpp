@@ -9,6 +9,10 @@
 
 namespace tread {
 
+/// Elements across the shorter axis of the patch below which F_N ripples as they pass. Measured on a smooth
+/// rail at 300 km/h, amplitude over load: 4 % with 1.4 elements, 0.7 % with 2.2, 0.03 % with 2.7.
+inline constexpr double kElementsOfForce = 2.5;
+
 /// Elements across the shorter axis of the patch of Hertz if too few for its pressures; none for a sound mesh
 /// or without contact.
 std::optional<double> too_few_elements_across_patch(const Model& model);

@@ -15,6 +15,7 @@ Hdf5Attributes root_attributes(const Scene& scene) {
       {"quality", scene.quality},
       {"axes", "x along the rail, forwards; y across, to the field side of a left rail; z upwards"},
       {"units", "SI"}};
+  if (!program_commit().empty()) attributes["commit"] = program_commit();
   if (scene.motion && scene.wheel) attributes["speed_m_per_s"] = scene.motion->speed;
   if (scene.contact) {
     attributes["friction_law"] = scene.contact->friction_law;

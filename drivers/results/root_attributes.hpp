@@ -7,8 +7,8 @@
 
 namespace tread {
 
-/// Program and version, title and quality of the scene, axes, units, speed [m/s] and coefficient of friction.
-/// summary.json states the same. [docs/reference/results.md, Attributes]
+/// Program, version and commit, title and quality of the scene, axes, units, speed [m/s] and coefficient of
+/// friction. summary.json states the same. [docs/reference/results.md, Attributes]
 Hdf5Attributes root_attributes(const Scene& scene);
 
 /// Adds attributes to a JSON object, as members of their names.

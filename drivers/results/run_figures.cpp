@@ -41,27 +41,55 @@ Span way_of(const std::vector<Sample>& samples) {
   return {rear->wheel_x, fore->wheel_x};
 }
 
+/// Length of the rail's elements on a stretch [m]; nothing where it changes.
+std::optional<double> even_pitch(const Model& model, const Span& stretch) {
+  const std::vector<double>& x = model.contact->nodes().grid().x;
+  std::vector<double> pitches;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] > stretch.first + kRounding && x[i - 1] < stretch.last - kRounding)
+      pitches.push_back(x[i] - x[i - 1]);
+  const Statistics pitch = statistics(pitches);
+  return pitch.mean > 0 && pitch.range() <= kRounding ? std::optional(pitch.mean) : std::nullopt;
+}
+
+/// Fills the spectrum of F_N over the evaluated stretch, and its sines of elements and corrugation.
+void evaluate_spectrum(const Model& model, RunResults& r) {
+  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last, r.dt);
+  if (const auto pitch = even_pitch(model, {r.evaluated_first, r.evaluated_last}))
+    for (const int ratio : {1, model.sizes.approach_ratio})
+      if (const auto ripple = r.spectrum.sine_of_elements(ratio * *pitch)) r.ripples.push_back(*ripple);
+  const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
+  if (corrugation && corrugation->kind == "sine" && r.evaluated_first >= model.contact->corrugation().first())
+    r.wave = r.spectrum.sine_of_wave(corrugation->wavelength);
+}
+
 /// Fills forces, creepage and sliding over the evaluated stretch. A wheel that stands trembles.
 void evaluate_stretch(const Model& model, const Span& way, RunResults& r) {
   const Corrugation& corrugation = model.contact->corrugation();
   const Span stretch = stands(model.scene) ? way : evaluated_stretch(model.scene, corrugation);
   r.evaluated_first = stretch.first;
   r.evaluated_last = std::min(way.last, stretch.last);
+  r.passed = way.last >= stretch.last - kRounding;
   if (r.evaluated_first > way.last) r.evaluated_first = model.scene.start_x();
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   r.evaluated_samples = std::count_if(r.samples.begin(), r.samples.end(), evaluated);
-  r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
-  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last, r.dt);
-  r.longitudinal_force =
-      statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
-  const Statistics creepage =
-      statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
+  const auto over = [&](auto value) { return statistics(r.samples, evaluated, value); };
+  r.vertical_force = over([](const Sample& s) { return s.vertical_force; });
+  evaluate_spectrum(model, r);
+  r.longitudinal_force = over([](const Sample& s) { return s.longitudinal_force; });
+  r.lateral_force = over([](const Sample& s) { return s.lateral_force; });
+  r.lateral_creepage = over([](const Sample& s) { return s.lateral_creepage; });
+  r.spin_creepage = over([](const Sample& s) { return s.spin_creepage; });
+  const Statistics creepage = over([](const Sample& s) { return s.creepage_mean; });
   r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
   r.full_slip_share = full_slip_share(r.samples, evaluated);
 }
 
-/// Change of F_L / F_N along the steady stretch over its mean; kSmallTraction is always accepted.
-constexpr double kSteady = 0.05;
+/// Accepted change of a traction along the steady stretch, or difference from it.
+double traction_bound(double traction) {
+  constexpr double kSteady = 0.05;
+  return std::max(kSteady * std::abs(traction), kSmallTraction);
+}
 
 /// Mean F_L over mean F_N between two places of the wheel [m]; 0 without load.
 double traction_between(std::span<const Sample> samples, double first, double last) {
@@ -101,6 +129,8 @@ void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
     r.steady_begin = first->time;
   r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
   r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
+  if (const double full = full_traction(model); full != 0)
+    r.traction_target = full * scene.motion->torque_share(settled_torque_time(scene));
   r.traction_drift = traction_drift(r.samples, r.steady_first, r.steady_last);
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
   r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last, model.wheel_radius());
@@ -117,6 +147,7 @@ void evaluate_steady(const Model& model, const Span& way, RunResults& r) {
 
 /// Fills the errors of energy and momentum. [theory.md, eq. 14]
 void evaluate_balance(RunResults& r) {
+  constexpr double kAtRest = 0.01;  // of the strain energy: a wheel that stands dissipates and stores nothing
   double worst = 0;
   double strain_low = r.samples.front().energy.strain;
   double strain_high = strain_low;
@@ -130,8 +161,9 @@ void evaluate_balance(RunResults& r) {
           std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
   }
   const EnergyLedger& last = r.samples.back().energy;
-  const double scale = last.frictional_work + last.connector_loss + last.material_loss + last.plastic_work +
-                       strain_high - strain_low;
+  const double scale = std::max(last.frictional_work + last.connector_loss + last.material_loss +
+                                    last.plastic_work + strain_high - strain_low,
+                                kAtRest * strain_high);
   r.energy_error = scale > 0 ? worst / scale : 0;
   r.energy_error_of_work = last.frictional_work > 0 ? worst / last.frictional_work : 0;
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
@@ -147,7 +179,12 @@ bool traction_slides(const RunResults& r) {
 
 bool traction_is_steady(const Scene& scene, const RunResults& r) {
   if (!r.traction_drift || traction_slides(r) || (r.driven && !torque_has_settled(scene, r))) return false;
-  return std::abs(*r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
+  return std::abs(*r.traction_drift) <= traction_bound(r.traction_coefficient);
+}
+
+bool traction_misses(const RunResults& r) {
+  return r.traction_target &&
+         std::abs(r.traction_coefficient - *r.traction_target) > traction_bound(*r.traction_target);
 }
 
 std::optional<double> settling_place(const Scene& scene, const RunResults& r) {

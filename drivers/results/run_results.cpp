@@ -168,15 +168,33 @@ void add_static_contact(const Model& model, const RunResults& r, Json& json) {
   json["rail_tilt_rad"] = r.preload.rail_tilt;
   json["wheelset_mass_kg"] = model.wheelset->mass();
   json["wheelset_inertia_kg_m2"] = model.wheelset->inertia();
+  if (model.web_thickness > 0) json["wheelset_web_thickness_m"] = model.web_thickness;
 }
 
 /// Root mean squares of F_N in one-third octaves over the evaluated stretch.
 Json octaves_json(const RunResults& r) {
   const ForceSpectrum& spectrum = r.spectrum;
   Json list = Json::array();
-  for (std::size_t i = 0; i < spectrum.bands.size(); ++i)
-    list.push_back({{"frequency_Hz", spectrum.bands[i].nominal}, {"rms_N", spectrum.rms[i]}});
+  for (std::size_t i = 0; i < spectrum.bands.size(); ++i) {
+    const ThirdOctave& band = spectrum.bands[i];
+    list.push_back({{"frequency_Hz", band.nominal}, {"rms_N", spectrum.rms[i]}});
+    const auto inside = [&](const ForceSine& sine) {
+      return sine.frequency >= band.low() && sine.frequency <= band.high();
+    };
+    if (std::ranges::any_of(r.ripples, inside)) list.back()["of_elements"] = true;
+  }
   return list;
+}
+
+/// Reason for the lowest band of octaves_json().
+std::string octaves_reason(const RunResults& r) {
+  if (r.spectrum.square.empty()) return "no band: samples there are fewer than 16 or not even";
+  return fmt::format("bands below {:.4g} Hz hold fewer than 17 waves in the evaluated stretch of {:.3g} m",
+                     r.spectrum.lowest(), r.evaluated_last - r.evaluated_first);
+}
+
+Json sine_json(const ForceSine& sine) {
+  return {{"length_m", sine.length}, {"frequency_Hz", sine.frequency}, {"amplitude_N", sine.amplitude}};
 }
 
 Json measured_json(const Model& model, const RunResults& r) {
@@ -198,16 +216,26 @@ void add_rolling_contact(const Model& model, const RunResults& r, Json& json) {
   json["vertical_force_N"] = statistics_json(r.vertical_force);
   json["dynamic_factor"] = r.dynamic_factor();
   json["vertical_force_third_octaves"] = octaves_json(r);
+  json["vertical_force_third_octaves_reason"] = octaves_reason(r);
+  json["vertical_force_of_elements"] = Json::array();
+  for (const ForceSine& ripple : r.ripples) json["vertical_force_of_elements"].push_back(sine_json(ripple));
+  json["vertical_force_of_wave"] = r.wave ? sine_json(*r.wave) : Json();
   json["longitudinal_force_N"] = statistics_json(r.longitudinal_force);
+  json["lateral_force_N"] = statistics_json(r.lateral_force);
+  json["lateral_creepage"] = statistics_json(r.lateral_creepage);
+  json["spin_creepage_per_m"] = statistics_json(r.spin_creepage);
   json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
+  json["passed"] = r.passed;
   json["steady_x_m"] = {r.steady_first, r.steady_last};
   json["vertical_force_steady_N"] = r.vertical_force_steady;
   json["traction_coefficient"] = r.traction_coefficient;
+  json["traction_target"] = number_or_null(r.traction_target);
   json["traction_drift"] = number_or_null(r.traction_drift);
   json["traction_steady"] = traction_is_steady(model.scene, r);
-  json["creepage_percent"] = 100 * r.creepage;
+  const bool rolls = !stands(model.scene);
+  json["creepage_percent"] = rolls ? Json(100 * r.creepage) : Json();
   json["creepage_of_frictional_work_percent"] = percent_or_null(r.creepage_of_work);
-  json["creepage_max_percent"] = 100 * r.creepage_max;
+  json["creepage_max_percent"] = rolls ? Json(100 * r.creepage_max) : Json();
   json["full_slip_share"] = r.full_slip_share;
   json["max_pressure_Pa"] = r.max_pressure;
   json["max_shear_Pa"] = r.max_shear;

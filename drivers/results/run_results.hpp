@@ -77,8 +77,15 @@ struct RunResults {
 
   Statistics vertical_force;        ///< over evaluated() [N]
   ForceSpectrum spectrum;           ///< of F_N there
+  std::vector<ForceSine> ripples;   ///< of F_N there, as the rail's elements and those before them pass
+  std::optional<ForceSine> wave;    ///< of F_N there, at a sine of the rail
   Statistics longitudinal_force;    ///< [N]
+  Statistics lateral_force;         ///< [N]
+  Statistics lateral_creepage;      ///< [-]
+  Statistics spin_creepage;         ///< [1/m]
   double traction_coefficient = 0;  ///< mean F_L / mean F_N over the steady stretch [-]
+  /// Value of it that the settled torque of motion.traction gives under the static load [-]; nothing without.
+  std::optional<double> traction_target;
   /// Traction of its second half less that of its first [-]; nothing where a half holds no sample.
   std::optional<double> traction_drift;
   double creepage = 0;                     ///< mean of 28 points of the tread there [-]
@@ -90,11 +97,12 @@ struct RunResults {
   double vertical_force_steady = 0;                        ///< mean there [N]
   double reached = 0;                                      ///< foremost place of the wheel [m]
   bool driven = false;                                     ///< by a torque of motion.traction
-  double energy_error = 0;          ///< largest residual over what was dissipated or stored [-]
+  double energy_error = 0;          ///< largest residual over what was dissipated or stored, eq. (14) [-]
   double energy_error_of_work = 0;  ///< the same over the frictional work alone; 0 without any [-]
   double momentum_error = 0;        ///< [-]
   double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
   std::int64_t evaluated_samples = 0;              ///< within it
+  bool passed = false;                             ///< the wheel has come to the end that it should have
   double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
   std::int64_t steady_samples = 0;                 ///< within it
   double steady_begin = 0;                         ///< time of the first of them [s]
@@ -130,6 +138,10 @@ bool torque_has_settled(const Scene& scene, const RunResults& results);
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
 /// 0.005 where the traction is small, the patch does not slide and the torque of a driven wheel has settled.
 bool traction_is_steady(const Scene& scene, const RunResults& results);
+
+/// Returns true if the traction coefficient is off its target by more than 5 % of it, or 0.005 where it is
+/// small.
+bool traction_misses(const RunResults& results);
 
 /// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values
 /// that were not measured do not count, and without others all are NaN.

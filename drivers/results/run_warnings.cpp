@@ -70,16 +70,14 @@ std::string yield_warning(const RunResults& r) {
       1e-3 * first, 1e-3 * load, 100 * kYieldedShare);
 }
 
-/// Residual over what was dissipated or stored above which results are doubted. Sound runs without friction,
-/// which dissipate little, have had 0.1.
-constexpr double kEnergyError = 0.5;
+/// Residual over what was dissipated or stored above which losses are doubted.
+constexpr double kEnergyError = 0.02;
 
 std::string balance_warning(const Model& model, const RunResults& r) {
-  const bool alone = !model.scene.rail;  // a wheel that stores and dissipates nearly nothing
-  if (alone || r.energy_error <= kEnergyError) return "";
+  if (r.energy_error <= kEnergyError) return "";
   return fmt::format(
-      "the energies miss by {:.0f} % of what was dissipated and stored: above {:.0f} % results are in doubt; "
-      "a smaller motion.step_safety shows whether the time step is the cause{}",
+      "the energies miss by {:.3g} % of what was dissipated and stored: above {:g} % frictional work and "
+      "losses are in doubt; a smaller motion.step_safety shows whether the time step is the cause{}",
       100 * r.energy_error, 100 * kEnergyError, uncounted_loss(model));
 }
 
@@ -159,6 +157,21 @@ std::string steadiness_warning(const Model& model, const RunResults& r) {
       steadiness_advice(model, r));
 }
 
+/// Sentence where a steady traction is not that of the torque.
+std::string target_warning(const Model& model, const RunResults& r) {
+  const Scene& scene = model.scene;
+  if (!traction_misses(r) || !traction_is_steady(scene, r)) return "";
+  const double vertical = r.vertical_force_steady / model.wheel_load();
+  const double longitudinal = r.traction_coefficient / *r.traction_target * vertical;
+  const bool risen = scene.motion->ramp > 0 && scene.start() != "rigid" && !model.guide;
+  return fmt::format(
+      "F_L / F_N is {:.4f} over the steady stretch (x = {:.3f} to {:.3f} m), motion.traction gives {:.4f}: "
+      "F_L is {:+.1f} % off there and F_N {:+.1f} %, as both swing; {}{} gives them the way to settle",
+      r.traction_coefficient, r.steady_first, r.steady_last, *r.traction_target, 100 * (longitudinal - 1),
+      100 * (vertical - 1), risen ? "motion.traction.ramp = 0 starts under the steady torque, or " : "",
+      later_stretch(model, r));
+}
+
 /// Sentence where no sample lies in the stretch that the summary evaluates.
 std::string empty_warning(const RunResults& r) {
   if (r.evaluated_samples > 0) return "";
@@ -198,6 +211,24 @@ std::string interval_warning(const RunResults& r) {
       1e6 * intervals.least, 1e6 * intervals.most);
 }
 
+/// Sentence where elements that pass make a large part of the range of F_N.
+std::string ripple_warning(const Model& model, const RunResults& r) {
+  constexpr double kShare = 0.25;    // of the range
+  constexpr double kTelling = 0.01;  // of the mean, below which no range matters
+  const std::optional<double> across = too_few_elements_across_patch(model);
+  const auto largest = std::ranges::max_element(r.ripples, {}, &ForceSine::amplitude);
+  if (!across || largest == r.ripples.end()) return "";
+  const double ripple = 2 * largest->amplitude, range = r.vertical_force.range();
+  const bool coarse = *across * model.sizes.contact < kElementsOfForce * largest->length;
+  if (!coarse || ripple <= std::max(kShare * range, kTelling * r.vertical_force.mean)) return "";
+  return fmt::format(
+      "F_N ripples by {:.3g} kN at {:.3g} kHz, as elements of {:.3g} mm pass: {:.0f} % of its range in "
+      "the evaluated stretch, above {:g} %, comes from the mesh, and part of the dynamic factor with it; a "
+      "smaller scene.element_size lessens it",
+      1e-3 * ripple, 1e-3 * largest->frequency, 1e3 * largest->length, 100 * std::min(1.0, ripple / range),
+      100 * kShare);
+}
+
 std::string hourglass_warning(const std::string& body, const DeformationEnergy& energy) {
   const double whole = energy.strain + energy.hourglass;
   if (whole <= 0 || energy.hourglass <= kHourglass * whole) return "";
@@ -212,9 +243,11 @@ void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<s
     warnings.push_back(yield_warning(r));
     warnings.push_back(empty_warning(r));
     warnings.push_back(interval_warning(r));
+    warnings.push_back(ripple_warning(model, r));
     warnings.push_back(empty_steady_warning(r));
     warnings.push_back(empty_half_warning(r));
     warnings.push_back(steadiness_warning(model, r));
+    warnings.push_back(target_warning(model, r));
   }
   warnings.push_back(balance_warning(model, r));
   for (std::size_t b = 0; b < r.part_energy.size(); ++b)

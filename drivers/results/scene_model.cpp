@@ -8,7 +8,6 @@
 
 #include "core/mesh/grading.hpp"
 #include "drivers/engine/chosen_fields.hpp"
-#include "drivers/results/memory_need.hpp"
 
 namespace tread {
 
@@ -42,10 +41,11 @@ double fitting_all(Scene scene, double fits) {
 
 }  // namespace
 
-Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional<double> corrugation_centre) {
+Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional<double> corrugation_centre,
+                  const AcceptMesh& accept) {
   require_steps_of_bodies(scene);
   try {
-    return Model(scene, corrugation_centre, require_memory);
+    return Model(scene, corrugation_centre, accept);
   } catch (const MeshSizeError& error) {
     const double all = fitting_all(scene, error.fits);
     const std::string others =

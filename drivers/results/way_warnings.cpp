@@ -7,7 +7,10 @@
 #include <optional>
 
 #include "core/travel.hpp"
+#include "drivers/engine/beam/beam_section.hpp"
+#include "drivers/engine/model/evaluated_stretch.hpp"
 #include "drivers/engine/model/sections.hpp"
+#include "drivers/engine/start/rail_beam.hpp"
 #include "drivers/results/rail_ends.hpp"
 #include "io/scene/rail_reach.hpp"
 
@@ -80,6 +83,45 @@ std::string friction_table_warning(const Scene& scene) {
       first < way.last ? contact.friction_at_x.back() : contact.friction_at_x.front());
 }
 
+/// Distance over which the rail's deflection dies away on its fastenings: three times the characteristic
+/// length of a beam on an elastic foundation [m].
+double bent_length(const Scene& scene) {
+  const BeamProperties beam = timoshenko(rail_beam_section(scene), scene.rail_material());
+  double compliance = 1 / scene.fastenings->stiffness;
+  if (scene.sleepers) compliance += 1 / scene.sleepers->stiffness;
+  const double foundation = 1 / (compliance * scene.fastenings->spacing);
+  return 3 * std::pow(4 * beam.bending_stiffness / foundation, 0.25);
+}
+
+/// Sentence where F_N is evaluated so near to the rail's right end that the end bends under the wheel.
+std::string rail_end_warning(const Model& model) {
+  const Scene& scene = model.scene;
+  if (!scene.fastenings || scene.fastenings->stiffness <= 0 || !scene.motion || stands(scene)) return "";
+  const Corrugation corrugation = scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation{};
+  const double last = std::min(evaluated_stretch(scene, corrugation).last, travel_of(scene).last);
+  const double end = scene.rail->length - scene.rail->origin;
+  const double enough = bent_length(scene);
+  if (end - last >= enough) return "";
+  const double length = 0.1 * std::ceil(10 * (scene.rail->origin + last + enough));
+  return fmt::format(
+      "the rail ends at x = {:.4g} m, {:.3g} m beyond the evaluated way, and bends over {:.3g} m on its "
+      "fastenings: its end changes F_N; state rail.length = \"{:.4g} m\" and fastenings.count = {}",
+      end, end - last, enough, length, most_fastenings(*scene.fastenings, length));
+}
+
+/// Sentence where traction acts on a rail that its ends alone hold along x.
+std::string free_foot_warning(const Scene& scene) {
+  if (!scene.fastenings || scene.fastenings->along.kind != "free" || !scene.motion) return "";
+  const MotionSpec& motion = *scene.motion;
+  if (motion.traction_mu.value_or(0) == 0 && motion.traction_torque.value_or(0) == 0) return "";
+  return fmt::format(
+      "fastenings.along = \"free\" under motion.traction: its ends alone hold the rail of {:.4g} m along x, "
+      "so "
+      "that F_L, creepage and frictional work depend on rail.length; state fastenings.along = \"held\" or "
+      "\"elastic\"",
+      scene.rail->length);
+}
+
 }  // namespace
 
 std::string way_warning(const Model& model, const std::string& what, const Span& aim, double enough,
@@ -109,6 +151,8 @@ void add_way_warnings(const Model& model, std::vector<std::string>& warnings) {
                                    "its elements have no effect on the rail"));
   warnings.push_back(fastening_warning(scene));
   warnings.push_back(friction_table_warning(scene));
+  warnings.push_back(rail_end_warning(model));
+  warnings.push_back(free_foot_warning(scene));
 }
 
 }  // namespace tread

@@ -1,6 +1,6 @@
 #pragma once
 // Warnings of a way that does not pass what the scene evaluates, that leaves the fastenings or a friction
-// table.
+// table, or whose traction acts on a rail with free feet.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ namespace tread {
 std::string way_warning(const Model& model, const std::string& what, const Span& aim, double enough,
                         const char* lost);
 
-/// Appends a sentence for the solution zone or the corrugation, each [zone.NAME], the fastenings and a table
-/// of friction; "" where the wheel's way is sound. Of a model with contact.
+/// Appends a sentence for the solution zone or the corrugation, each [zone.NAME], the fastenings, a table of
+/// friction and free feet; "" where the wheel's way is sound. `model` has contact.
 void add_way_warnings(const Model& model, std::vector<std::string>& warnings);
 
 }  // namespace tread
