@@ -39,7 +39,7 @@ TEN = [
         "Timoshenko beam"),
 ]
 SIX = [TEN[0], TEN[3], TEN[4], TEN[6], TEN[7], TEN[9]]
-BY_SIZE = [TEN[4], TEN[5], TEN[6], TEN[7]]
+BY_SIZE = [TEN[0], TEN[4], TEN[5], TEN[6], TEN[7]]
 SIZES = {"2.2 mm": "-element_size-2.2mm", "1.1 mm": "", "0.55 mm": "-element_size-0.55mm"}
 
 

@@ -12,8 +12,10 @@ document="$root/docs/records/verification.md"
 # One run a line: the case and its inputs; the order is that of the document.
 runs=(
   'hertz_sphere'
+  'hertz_sphere --set "element_size=2.2 mm"'
   'hertz_sphere --set "element_size=0.55 mm"' # 12 minutes of a core
   'hertz_ellipse'
+  'hertz_ellipse --set "element_size=2.2 mm"'
   'hertz_ellipse --set "element_size=0.55 mm"' # 25 minutes of a core
   'surface_depths'
   'surface_depths --set "element_size=0.7 mm"'
@@ -42,7 +44,11 @@ runs=(
   'fastening_passing'
   'fastening_passing --set over_pad=0'
   'fastening_passing --set held=0'
+  'fastening_passing --set "speed=500 km/h"'
+  'fastening_passing --set "damping=50 kN s/m"'
   'wheelset_settling'
+  'wheelset_settling --set "stiffness=60 MN/m"'
+  'wheelset_settling --set "damping=50 kN s/m"'
   'wheelset_modes'
   'wheel_receptance'
   'ring_modes'

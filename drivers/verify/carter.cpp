@@ -55,13 +55,11 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   const double ramp = inputs["ramp"];
   const double observed = 4 * a;
   bodies.guided = true;
-  const auto run = [&](double mu) {
-    bodies.roll_on(speed, 1.3 * speed * ramp + observed, observed, smooth_traction(mu, ramp));
-    return roll_tyre(bodies, observed, progress);
-  };
-  const Rolled free = run(0);
-  const Rolled rolled = run(exploitation * bodies.friction);
-  const double creepage = rolled.creepage + rolled.free_creepage - free.creepage - free.free_creepage;
+  const double way = 1.3 * speed * ramp + observed;
+  const double free = free_creepage(bodies, speed, way, observed, progress);
+  bodies.roll_on(speed, way, observed, smooth_traction(exploitation * bodies.friction, ramp));
+  const Rolled rolled = roll_tyre(bodies, observed, progress);
+  const double creepage = rolled.creepage - free;
 
   const double reached = rolled.force / (bodies.friction * rolled.normal_force);
   const Carter theory{a, a * std::sqrt(1 - std::abs(reached)),
@@ -101,8 +99,9 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
        {}},
       {"energy residual / frictional work", "-", rolled.energy_residual, 0, 0.01, true}};
 
-  result.figures = {tractions_figure(rolled, theory, side),
-                    creepage_figure(rolled, side * bodies.friction * (a - theory.stick) / bodies.radius)};
+  result.figures = {
+      tractions_figure(rolled, theory, side),
+      creepage_figure(rolled, free, side * bodies.friction * (a - theory.stick) / bodies.radius)};
   return result;
 }
 

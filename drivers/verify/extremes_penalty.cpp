@@ -69,7 +69,7 @@ CaseResult extremes_penalty(const VerifyInputs& inputs, const ProgressText& prog
         history(fmt::format("x {:g}", factor), run, [](const Sample& s) { return 1e6 * s.patch_area; }));
   }
   bodies.overrides = {penalty_key(as_default, kRefused)};
-  const bool far_beyond = refused([&] { const Model model(bodies.scene()); });
+  const bool far_beyond = refused([&] { const Model model(bodies.scene()); }, {"times as stiff"});
   result.findings.push_back(
       {fmt::format("penalty x {:g}: refused", kRefused), "-", far_beyond ? 1.0 : 0.0, 1, 0});
   result.figures.push_back(figure);

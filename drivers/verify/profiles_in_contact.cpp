@@ -22,7 +22,7 @@ namespace tread {
 
 namespace {
 
-/// Rail centre line in wheel coordinates; 3.5 mm: the wheelset stands in the middle [m].
+/// Rail centre line in wheel coordinates; 3 mm on 1:40: the wheelset stands in the middle [m].
 constexpr std::array kOffsets = {1e-3, 2e-3, 4e-3, 5e-3, 6e-3, 8e-3, 10e-3};
 
 Scene wheel_on_rail(const VerifyInputs& inputs, double offset) {

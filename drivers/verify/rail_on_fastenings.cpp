@@ -151,20 +151,6 @@ Panel receptance_panel(const std::string& place, const Strike& strike, const Tra
   return {"log10 of [m/N]", {section, head, theory}, {}, 240, std::nullopt};
 }
 
-/// Deflection under a force and the own weight of beam and sleepers [m].
-double loaded_deflection(const TrackBeam& beam, const BeamProperties& rail, double force,
-                         const Scene& scene) {
-  // By reciprocity the weight's deflection at 0 is the weight times the area of the line under a unit force
-  // there.
-  const std::vector<double> line = beam.static_state(0, 1);
-  constexpr int kParts = 2000;
-  double area = 0;
-  for (int i = 0; i < kParts; ++i)
-    area += beam.deflection(line, beam.left() + beam.length() * (i + 0.5) / kParts) * beam.length() / kParts;
-  const double bed = scene.sleepers ? scene.gravity * sleeper_mass(scene) / scene.sleepers->stiffness : 0;
-  return force * beam.deflection(line, 0) + rail.mass * scene.gravity * area + bed;
-}
-
 void add_static(const VerifyInputs& inputs, const ProgressText& progress, CaseResult& result) {
   const Scene scene =
       resolve_scene(SceneSource{"verify",
@@ -181,9 +167,8 @@ duration = "1 ms"
   progress(fmt::format("wheelset on the rail: {} elements", model.elements()));
   const Preload preload = solve_preload(model, {}, progress);
   const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.rail_material());
-  const TrackBeam beam = rail_beam(scene, rail);
   const double force = model.wheel_load();
-  const double theory = loaded_deflection(beam, rail, force, scene);
+  const double theory = loaded_deflection(scene, 0, force);
   const double bed = scene.sleepers ? 1 / scene.sleepers->stiffness : 0;
   const double winkler = 1 / (1 / scene.fastenings->stiffness + bed) / scene.fastenings->spacing;
   const double line = force * std::pow(winkler / (4 * rail.bending_stiffness), 0.25) / (2 * winkler);

@@ -68,8 +68,7 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   rolled.force = force.mean;
   rolled.force_deviation = force.deviation / std::abs(force.mean);
   rolled.normal_force = mean([](const Sample& a) { return a.vertical_force; });
-  rolled.free_creepage = s.front().creepage_mean;
-  rolled.creepage = mean([](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;
+  rolled.creepage = mean([](const Sample& a) { return a.creepage_mean; });
   rolled.slip_fraction =
       mean([](const Sample& a) { return a.patch_area > 0 ? a.slip_area / a.patch_area : 0.0; });
   const auto start = std::find_if(s.begin(), s.end(), [&](const Sample& a) { return a.wheel_x >= first; });
@@ -78,6 +77,7 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
                      (s.back().energy.frictional_work - start->energy.frictional_work);
   rolled.energy_residual = std::abs(s.back().energy.residual) / s.back().energy.frictional_work;
 
+  const SurfaceFields& record = *simulation.surface();  // fetches the points, too, from a device
   const double axle = simulation.wheel().origin.x;
   for (const ContactPoint& point : model.contact->points())
     rolled.patch.push_back({point.position.x - axle, point.position.y, point.pressure, -point.shear.along});
@@ -86,19 +86,25 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
 
   // Only nodes that the whole patch has passed count.
   const double half = 1.3 * bodies.hertz_patch().semi_axis_x;
-  rolled.surface = surface_results(*simulation.surface(), first + half, s.back().wheel_x - half);
+  rolled.surface = surface_results(record, first + half, s.back().wheel_x - half);
   const auto inside = [&](const AxisNode& node) { return rolled.surface.covers(node); };
   rolled.shear = statistics(rolled.surface.axis, inside, [](const AxisNode& node) { return node.max_shear; });
   rolled.work = statistics(rolled.surface.axis, inside, [](const AxisNode& node) { return node.work; }).mean;
   return rolled;
 }
 
-Figure creepage_figure(const Rolled& rolled, double reference) {
+double free_creepage(TyreOnBlock bodies, double speed, double way, double observed,
+                     const ProgressText& progress) {
+  bodies.roll_on(speed, way, observed, smooth_traction(0, way / speed));
+  return roll_tyre(bodies, observed, progress).creepage;
+}
+
+Figure creepage_figure(const Rolled& rolled, double free, double reference) {
   Series ours{"mean of 28 nodes less free rolling", {}, {}, Stroke::solid};
   Series traction{"F_L / F_N", {}, {}, Stroke::solid};
   for (const Sample& sample : rolled.samples) {
     ours.x.push_back(1e3 * sample.wheel_x);
-    ours.y.push_back(100 * (sample.creepage_mean - rolled.free_creepage));
+    ours.y.push_back(100 * (sample.creepage_mean - free));
     traction.x.push_back(1e3 * sample.wheel_x);
     traction.y.push_back(sample.traction());
   }

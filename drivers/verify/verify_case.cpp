@@ -54,6 +54,12 @@ Finding judged_by_slip_zone(Finding finding, double factor, double element, doub
   return finding;
 }
 
+Finding judged_above_floor(Finding finding, double bound, double floor) {
+  finding.absolute = bound * std::abs(finding.reference) < floor;
+  finding.bound = finding.absolute ? floor : bound;
+  return finding;
+}
+
 Finding beside_record(Finding finding, double difference, double bound) {
   if (finding.absolute) {
     finding.quantity += fmt::format(", against the reference {:+g}", difference);

@@ -56,13 +56,17 @@ struct Finding {
 /// [m]. A zone narrower than an element is not resolved: no bound, and the quantity says so.
 Finding judged_by_slip_zone(Finding finding, double factor, double element, double width);
 
+/// `finding` judged by `bound`, a share of its reference, or where this is less than `floor`, in the
+/// finding's unit, by the floor.
+Finding judged_above_floor(Finding finding, double bound, double floor);
+
 /// `finding` against its reference changed by the difference of the two models that the records state, as a
 /// share of the reference or, if the finding is absolute, in its unit. For inputs that the records hold
 /// alone.
 Finding beside_record(Finding finding, double difference, double bound);
 
 /// Returns true if `act` throws an InputError whose text holds all `parts`.
-bool refused(const std::function<void()>& act, const std::vector<std::string>& parts = {});
+bool refused(const std::function<void()>& act, const std::vector<std::string>& parts);
 
 struct CaseResult {
   std::vector<Finding> findings;

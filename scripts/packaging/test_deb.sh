@@ -60,6 +60,7 @@ as_user 'cd work && tread run tyre -o lanes --quiet --set "scene.element_size=8 
 as_user 'cd work && TREAD_INSTRUCTION_SET=baseline tread run bar-wave -o baseline --quiet'
 as_user 'test -s work/tyre/report.html && grep -q "highspeed" /usr/share/tread/references/*.toml'
 for file in /usr/share/man/man1/tread.1 /usr/share/man/man1/tread-run.1 /usr/share/doc/tread/copyright \
+  /usr/share/doc/tread/docs/can-and-cannot.md \
   /usr/share/bash-completion/completions/tread /usr/share/zsh/vendor-completions/_tread \
   /usr/lib/python3/dist-packages/tread_results.py; do
   inside test -s "$file" || { echo "$file is missing" >&2; exit 1; }

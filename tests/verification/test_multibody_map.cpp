@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
@@ -78,7 +79,13 @@ TEST(Calibration, RefusesARunThatIsAnother) {
   TransientRun brief = run_with(1);
   brief.x.resize(brief.x.size() / 3);
   brief.force.resize(brief.x.size());
-  EXPECT_THROW(calibrate(model_of(300, 80), brief, kQuick), InputError);
+  const auto refusals = [&] {
+    return std::array{samples::refusal<InputError>([&] { calibrate(model_of(300, 80), brief, kQuick); }),
+                      samples::refusal<InputError>([&] { map_dot(model_of(300, 80), brief); })};
+  };
+  for (const std::string& refused : refusals()) samples::expect_part(refused, "; let it roll further");
+  brief.unfinished = "the run is not done: another command";
+  for (const std::string& refused : refusals()) samples::expect_part(refused, "; " + brief.unfinished);
 }
 
 /// One of so many samples of a run, 0.83 mm apart.

@@ -98,6 +98,20 @@ TEST(BeamSectionProperties, OfCN60) {
   EXPECT_NEAR(s.shear_coefficient, 0.41, 0.01);  // in the known range, 0.34 to 0.53
 }
 
+/// Under the paper's wheel, where the rail of solid elements sinks by 1.194 mm, its foot held. A free foot
+/// gives way by more than Euler's beam on an elastic foundation.
+TEST(TrackBeam, OfCN60OnItsFastenings) {
+  const auto deflection = [](const std::vector<std::string>& overrides) {
+    const SceneSource source{"x.toml", "[scene]\nbased_on = \"highspeed-slab-2014\"\n", {}};
+    return loaded_deflection(resolve_scene(source, overrides).scene, 0, 8926 * 9.81);
+  };
+  const double held = deflection({}), free = deflection({"fastenings.along=free"});
+  measured("deflection, foot held [mm]", 1e3 * held);
+  measured("deflection, foot free [mm]", 1e3 * free);
+  EXPECT_NEAR(held, 1.194e-3, 0.005 * 1.194e-3);
+  EXPECT_GT(free, 1.375e-3);
+}
+
 TEST(TrackBeam, RestsOnAWinklerFoundation) {
   const double k = 22e6 / 0.65;
   const double force = 8926 * 9.81;

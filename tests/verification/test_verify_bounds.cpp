@@ -1,4 +1,4 @@
-// Bounds of verification cases that depend on the inputs.
+// Bounds of verification cases that depend on the inputs, and the free rolling that they subtract.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/verify/cases.hpp"
+#include "drivers/verify/roll_tyre.hpp"
 
 namespace tread {
 namespace {
@@ -35,6 +36,22 @@ TEST(VerifyBounds, AreAbsentWhereElementsDoNotResolveThePatch) {
        findings(profiles_in_contact_case(), {{"element_size", "8 mm"}, {"first", "8 mm"}, {"last", "8 mm"}}))
     judged += finding.bound.has_value() ? 1 : 0;
   EXPECT_EQ(judged, 2);  // the force and the pressure's middle
+}
+
+TEST(FreeCreepage, LiesMidwayBetweenDrivingAndBraking) {
+  TyreOnBlock bodies = driven_tyre(VerifyInputs(driven_inputs(3.5e-3)));
+  const auto silent = [](const std::string&) {};
+  const double observed = 4 * bodies.hertz_patch().semi_axis_x;
+  constexpr double speed = 60, way = 60e-3, ramp = 0.4e-3;  // [m/s, m, s]
+  const auto creepage = [&](double mu) {
+    bodies.roll_on(speed, way, observed, smooth_traction(mu, ramp));
+    return roll_tyre(bodies, observed, silent).creepage;
+  };
+  const double driven = creepage(0.1);
+  const double braked = creepage(-0.1);
+  // The spin at the start lies further off.
+  EXPECT_NEAR(free_creepage(bodies, speed, way, observed, silent), 0.5 * (driven + braked),
+              0.01 * (driven - braked));
 }
 
 }  // namespace
