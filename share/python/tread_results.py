@@ -232,7 +232,7 @@ class Sweep:
     names: list[str]  # points, named as their folders
     states: list[str]  # "done", "failed", "interrupted", "running" or "waiting", by point
     varied: Table  # scene key -> column [point] in the unit of docs/reference/scene.md; nan where a number is absent
-    results: Table  # name -> column [point] in SI; "state_hash" is text
+    results: Table  # name -> column [point] in SI; truths such as "passed" are 1 or 0, "state_hash" is text
     runs: Table  # point -> Run, opened when asked for
 
     def __init__(self, folder: str | Path) -> None:

@@ -82,13 +82,15 @@ Table comparison_of(const Outcome& o, const std::string& force) {
 std::string stretch_of(const Outcome& o) {
   const std::string means =
       o.choice.mean > 0 ? fmt::format(", both averaged over {} mm", readable(1e3 * o.choice.mean)) : "";
-  return fmt::format("x = {:.4f} to {:.4f} m, {} samples of the run{}", o.found.x.front(), o.found.x.back(),
-                     o.found.x.size(), means);
+  return fmt::format("x = {:.4f} to {:.4f} m, {} samples of {}{}", o.found.x.front(), o.found.x.back(),
+                     o.found.x.size(), o.run.unfinished.empty() ? "the run" : "a run that is not done",
+                     means);
 }
 
 Json comparison_json(const Outcome& o, const std::string& force) {
   const CurveComparison& c = o.found;
   Json json = {{"run", o.run.directory.string()},
+               {"run_done", o.run.unfinished.empty()},
                {"curve", o.curve.name},
                {"force", force},
                {"stretch_x_m", {c.x.front(), c.x.back()}},

@@ -23,7 +23,7 @@ ForceCurve read_force_curve(const std::filesystem::path& path, const std::string
   rules.second = {kForce};
   const std::string other = force == "F_N" ? "F_L" : "F_N";
   rules.names = {{"x", "s", "t", "time"}, {force, lower_case(force), lower_case(other), "f", "force"}};
-  rules.example = force + " [kN]";
+  rules.example = "x [m]  " + force + " [kN]";
   TwoColumns columns = read_two_columns(path, rules);
   if (lower_case(columns.names[1]) == lower_case(other))
     throw ProblemsError(
@@ -104,9 +104,9 @@ std::string stated_limits(const ComparisonOptions& options) {
                                                 limits, rounded(run.x.front()), rounded(run.x.back()));
   throw InputError(fmt::format(
       "{}: it covers {:.6g} to {:.6g} {unit}, the run {} covers {:.6g} to {:.6g} {unit}: fewer than "
-      "two samples of the run lie in both; {}",
+      "two samples of the run lie in both; {}{}{}",
       curve.name, rounded(curve.at.front()), rounded(curve.at.back()), run.directory.string(), first, last,
-      cure, fmt::arg("unit", unit)));
+      cure, run.unfinished.empty() ? "" : "; ", run.unfinished, fmt::arg("unit", unit)));
 }
 
 /// Lead of the peaks before the crests of the scene's sine [rad]. Peaks of a force that is negative in the

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/error.hpp"
 #include "drivers/process/interruption.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
@@ -15,6 +16,7 @@
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -47,6 +49,8 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   require_folder_of(options.output, "develop");
   const std::vector<std::string> launcher = launcher_words(options.launcher);
   if (const std::string missing = missing_launcher(launcher); !missing.empty()) throw InputError(missing);
+  const std::string card = missing_device(options.device);
+  if (launcher.empty() && !card.empty()) throw ResourceError(card);
   Progress progress(options.quiet);
   std::optional<double> room;
   if (!std::filesystem::exists(options.output / kKeptScene)) {

@@ -7,7 +7,10 @@
 
 #include "core/error.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/results/depth_warnings.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/results/scene_model.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "io/report/markup.hpp"
 #include "io/text/units.hpp"
 
@@ -59,10 +62,69 @@ std::string percent_text(double share) {
   return readable(100 * share, 2) + " %";
 }
 
+/// Returns true if the quantity's mean is prescribed, or that of one among all.
+bool is_prescribed(const std::string& quantity) {
+  return std::any_of(dial_quantities().begin(), dial_quantities().end(), [&](const DialQuantity& one) {
+    return one.prescribed && (quantity == one.name || quantity == kAllQuantities);
+  });
+}
+
 /// "measured on "TITLE" against REFERENCE"; a passage may have no title.
 std::string measured_text(const Advice& advice) {
   const std::string on = advice.measured_on.empty() ? "" : fmt::format(" on \"{}\"", advice.measured_on);
-  return fmt::format("          measured{} against {}\n", on, advice.reference);
+  const bool of_mean = is_prescribed(advice.quantity) && !advice.of_fluctuation;
+  return fmt::format("          measured{} against {}{}\n", on, advice.reference,
+                     of_mean ? "; shares of the mean, static load included" : "");
+}
+
+/// Returns true if a row with fewer of the settings makes the same of the scene.
+bool has_idle_setting(const ResolvedScene& resolved, const DialRow& row, const DialTable& table) {
+  const auto stated = [&](const std::string& one) {
+    return std::find(row.settings.begin(), row.settings.end(), one) != row.settings.end();
+  };
+  const SceneContent content = scene_content(scene_with(resolved, row.settings, false));
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const DialRow& other) {
+    return other.point != table.reference && other.settings.size() < row.settings.size() &&
+           std::all_of(other.settings.begin(), other.settings.end(), stated) &&
+           scene_content(scene_with(resolved, other.settings, false)) == content;
+  });
+}
+
+/// Sentences on what the mesh does not resolve for the quantity; forces need less of the patch.
+std::vector<std::string> mesh_warnings(const Model& model, const std::string& quantity) {
+  std::vector<std::string> warnings = coarse_depth_warnings(model);
+  const bool force = quantity != kAllQuantities && is_prescribed(quantity);
+  const std::optional<double> across = too_few_elements_across_patch(model);
+  if (across && (!force || *across < kElementsOfForce))
+    warnings.push_back(fmt::format("the contact patch has {:.1f} elements across, too few for {}", *across,
+                                   quantity == kAllQuantities ? "every quantity" : quantity));
+  return warnings;
+}
+
+/// Adds warnings and cost of the scene with the row's settings.
+void judge(const ResolvedScene& resolved, const DialRow& row, Advice& advice) {
+  advice.hidden_quality = hides_quality(resolved, row);
+  advice.warnings.clear();
+  advice.cost.reset();
+  const ResolvedScene other = scene_with(resolved, row.settings, advice.hidden_quality);
+  try {
+    Model model = scene_model(other.scene, other);
+    advice.warnings = mesh_warnings(model, advice.quantity);
+    advice.cost = estimate(model, file_bytes(other.source));
+  } catch (const Error& error) {
+    advice.no_cost = error.what();
+  }
+}
+
+/// The table that the options name. InputError for minutes of the shipped one.
+DialTable stated_table(const AdviceOptions& options) {
+  const DialCost cost = dial_cost(options.cost);
+  if (!options.dial.empty()) return read_dial(options.dial);
+  if (cost == DialCost::minutes)
+    throw InputError(
+        "--cost minutes: the runs of the shipped table shared their processor with other work, so that their "
+        "minutes compare nothing; use element-steps, or name a dial of your own with --dial");
+  return measured_dial();
 }
 
 }  // namespace
@@ -70,20 +132,27 @@ std::string measured_text(const Advice& advice) {
 std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions& options) {
   if (options.error.empty()) return std::nullopt;
   require_quantity("--quantity", options.quantity);
-  const DialTable table = options.dial.empty() ? measured_dial() : read_dial(options.dial);
-  Advice advice{wanted_error(options.error), options.quantity, table.scene, table.reference, {}, {}, {}};
-  const std::vector<const DialRow*> front = pareto_front(table, advice.quantity, dial_cost(options.cost));
+  DialTable table = stated_table(options);
+  const DialCost cost = dial_cost(options.cost);
+  Advice advice{.wanted = wanted_error(options.error),
+                .quantity = options.quantity,
+                .measured_on = table.scene,
+                .reference = table.reference,
+                .of_fluctuation = has_fluctuation(table)};
+  const std::vector<const DialRow*> front = pareto_front(table, advice.quantity, cost);
   if (!front.empty()) advice.nearest = *front.back();
-  if (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, dial_cost(options.cost))) {
-    advice.row = *row;
-    advice.hidden_quality = hides_quality(resolved, *row);
-    const ResolvedScene other = scene_with(resolved, row->settings, advice.hidden_quality);
-    try {
-      Model model = scene_model(other.scene, other);
-      advice.cost = estimate(model, file_bytes(other.source));
-    } catch (const Error& error) {
-      advice.no_cost = error.what();
+  while (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, cost)) {
+    if (has_idle_setting(resolved, *row, table)) {
+      table.rows.erase(table.rows.begin() + (row - table.rows.data()));
+      continue;
     }
+    judge(resolved, *row, advice);
+    if (advice.warnings.empty() || !options.dial.empty()) {
+      advice.row = *row;
+      break;
+    }
+    // Rows on the same mesh or a coarser one do not resolve the scene either.
+    std::erase_if(table.rows, [most = row->elements](const DialRow& one) { return one.elements <= most; });
   }
   return advice;
 }
@@ -93,7 +162,10 @@ std::string advice_text(const Advice& advice) {
   std::string text = fmt::format("Error     at most {} in {}: ", percent_text(advice.wanted), what);
   if (!advice.row) {
     text += "no setting measured is as near";
-    if (advice.nearest)
+    if (!advice.warnings.empty())
+      text += fmt::format(" and resolves this scene ({}); measure your own with `tread dial`",
+                          fmt::join(advice.warnings, "; "));
+    else if (advice.nearest)
       text += fmt::format("; the nearest, {}, is {} off", advice.nearest->point,
                           percent_text(error_of(*advice.nearest, advice.quantity).value_or(0)));
     else
@@ -108,6 +180,7 @@ std::string advice_text(const Advice& advice) {
   text += fmt::format("         {}\n", settings_text(*advice.row));
   if (advice.hidden_quality)
     text += "          and scene.element_size left out of the scene, which hides the quality\n";
+  for (const std::string& warning : advice.warnings) text += fmt::format("          warning: {}\n", warning);
   if (!advice.cost) return text + fmt::format("          this scene with it: {}\n", advice.no_cost);
   return text + fmt::format("          this scene with it: about {}, {} elements, {} steps\n",
                             duration_text(advice.cost->seconds()), advice.cost->elements, advice.cost->steps);
@@ -118,6 +191,7 @@ Json advice_json(const Advice& advice) {
                {"quantity", advice.quantity},
                {"measured_on", advice.measured_on},
                {"reference", advice.reference}};
+  if (!advice.warnings.empty()) json["warnings"] = advice.warnings;
   if (advice.row) {
     json["point"] = advice.row->point;
     json["error"] = error_of(*advice.row, advice.quantity).value_or(0);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "core/error.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
@@ -18,6 +21,11 @@ namespace {
 
 constexpr const char* kSize = "scene.element_size";
 constexpr const char* kQuality = "scene.quality";
+/// Choices of method beside the keys of Effect::fineness: the passage stays the same.
+constexpr std::array<std::string_view, 9> kMethods = {
+    "contact.penetration_ratio", "contact.points", "contact.surface",
+    "corrugation.apply",         "motion.run_up",  "motion.start",
+    "motion.step_safety",        "slab.present",   "solution_zone.margin"};
 
 /// "key=value" with all behind the sign as the value.
 StudySetting setting(const std::string& option, const std::string& text) {
@@ -82,6 +90,29 @@ class PointList {
   std::set<SceneContent> known_;
 };
 
+/// Returns true if runs that differ in the key are of one passage. Keys that the schema lacks are left to
+/// plan_study().
+bool keeps_passage(const std::string& key) {
+  const std::optional<Key> known = find_key(key);
+  return !known || known->effects.any_of({Effect::fineness, Effect::output, Effect::process}) ||
+         std::find(kMethods.begin(), kMethods.end(), key) != kMethods.end();
+}
+
+/// InputError where points differ in a key that makes another passage.
+void require_one_passage(const Study& study) {
+  std::map<std::string, std::multiset<std::string>> values;
+  for (const StudyPoint& point : study.points)
+    for (const auto* settings : {&point.own, &point.varied})
+      for (const StudySetting& s : *settings) values[s.key].insert(s.value);
+  for (const auto& [key, of_points] : values)
+    if (!keeps_passage(key) && of_points.count(*of_points.begin()) < study.points.size())
+      throw InputError(
+          fmt::format("{}: {} = {} makes another passage, whose difference is no error; a dial varies keys "
+                      "with the effect fineness and {}; run `tread sweep`, or state one value for all points "
+                      "with --set",
+                      study.name, key, *of_points.begin(), fmt::join(kMethods, ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> default_axes(const Scene& scene) {
@@ -106,6 +137,7 @@ DialDesign design_dial(const std::filesystem::path& file, const DialAxes& wanted
       throw InputError(
           fmt::format("{}: a study states its points; --base and --axis belong to a scene", file.string()));
     design.study = read_study(file);
+    require_one_passage(design.study);
     return design;
   }
   std::vector<StudySetting> base;
@@ -121,6 +153,7 @@ DialDesign design_dial(const std::filesystem::path& file, const DialAxes& wanted
   for (const std::string& axis : wanted.axes.empty() ? default_axes(scene) : wanted.axes)
     for (const StudySetting& value : values_of(axis)) list.add(point_name({value}), {value});
   design.study.points = std::move(list.points);
+  require_one_passage(design.study);
   return design;
 }
 

@@ -21,8 +21,8 @@ struct DialDesign {
 };
 
 /// A file with a table [study] is a study, whose points are the dial's; any other is a scene, which is varied
-/// one key at a time from the base. Throws InputError for axes beside a study or axes that do not read; what
-/// the scene says of them is left to plan_study().
+/// one key at a time from the base. Throws InputError for axes beside a study, axes that do not read, and
+/// keys that make another passage; what the scene says of values is left to plan_study().
 DialDesign design_dial(const std::filesystem::path& file, const DialAxes& axes);
 
 /// Element sizes and qualities, precisions, penalty, step, surface, start, ground, as far as they suit the

@@ -88,8 +88,8 @@ bool rolls_freely(const FinishedRun& run) {
 
 const std::vector<DialQuantity>& dial_quantities() {
   static const std::vector<DialQuantity> quantities = {
-      {"F_N", "F_N", {.y = {"vertical_force", "N"}}},
-      {"F_L", "F_L", longitudinal_force(), true},
+      {"F_N", "F_N", {.y = {"vertical_force", "N"}}, false, true},
+      {"F_L", "F_L", longitudinal_force(), true, true},
       {"creepage", "creepage", {.y = {"creepage_mean", "-"}}, true},
       {"pressure", "pressure", {.y = {"max_pressure", "Pa"}}},
       {"shear", "shear", {.y = {"max_shear", "Pa"}}},
@@ -116,6 +116,7 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
   std::vector<double> apart = values_on(curve, common, difference.shift.value_or(0));
   for (std::size_t i = 0; i < apart.size(); ++i) apart[i] -= wanted[i];
   difference.error = quadratic_mean(statistics(apart)) / level;
+  if (of_wanted.deviation > 0) difference.fluctuation = difference.error * level / of_wanted.deviation;
   return difference;
 }
 
@@ -130,7 +131,11 @@ std::optional<CurveDifference> run_difference(const FinishedRun& run, const Fini
   constexpr double kLongest = 20e-3;  // [m]
   const double longest =
       sine ? 0.25 * scene.corrugation->wavelength : std::min(kLongest, 0.1 * (known.last - known.first));
-  return curve_difference(first_passage(read_curve(run, quantity.curve)), wanted, stretch, longest);
+  std::optional<CurveDifference> difference =
+      curve_difference(first_passage(read_curve(run, quantity.curve)), wanted, stretch, longest);
+  const bool excited = scene.corrugation || !scene.surfaces.empty();
+  if (difference && !(quantity.prescribed && excited)) difference->fluctuation.reset();
+  return difference;
 }
 
 }  // namespace tread

@@ -55,12 +55,16 @@ Table titled(std::string title, Table table) {
   return table;
 }
 
+std::string error_title(const DialTable& table) {
+  return has_fluctuation(table) ? "Error / error of the fluctuation [%]" : "Error [%]";
+}
+
 std::vector<Table> error_tables(const DialTable& table) {
   const auto means = [](const CurveDifference& d) {
     return percent_cell(d.mean) + " / " + percent_cell(d.range);
   };
   return {
-      titled("Error [%]", error_table(table)),
+      titled(error_title(table), error_table(table)),
       titled("Shift along the rail, positive further along than the reference [mm]; –: no pattern in common",
              shift_table(table)),
       titled("Mean over the reference's quadratic mean / range over the reference's, difference [%]",
@@ -84,7 +88,8 @@ Chapter error_chapter(const DialTable& table) {
   Chapter chapter{"Errors", {}};
   chapter.blocks.emplace_back(Text{fmt::format(
       "Against {}. Error: quadratic mean of the difference of the curves over the evaluated stretch once "
-      "the shift is taken out, over that of the reference's curve.",
+      "the shift is taken out, over that of the reference's curve. Error of the fluctuation: over the "
+      "standard deviation of that curve.",
       table.reference)});
   for (Table& one : error_tables(table)) chapter.blocks.emplace_back(std::move(one));
   return chapter;
@@ -102,7 +107,9 @@ Chapter effect_chapter(const DialTable& effects) {
 }  // namespace
 
 Table error_table(const DialTable& table) {
-  return quantity_table(table, [](const CurveDifference& d) { return percent_cell(d.error); });
+  return quantity_table(table, [](const CurveDifference& d) {
+    return percent_cell(d.error) + (d.fluctuation ? " / " + percent_cell(d.fluctuation) : "");
+  });
 }
 
 Table shift_table(const DialTable& table) {
@@ -134,10 +141,8 @@ Scatter dial_picture(const DialTable& table, DialCost cost) {
     const auto dot = [&, &quantity = name](const DialRow& row, bool marked) {
       return ScatterDot{shown_cost(row, cost), kPercent * *error_of(row, quantity), row.point, marked};
     };
-    for (const DialRow& row : table.rows)
-      if (row.point != table.reference && error_of(row, name) &&
-          std::find(front.begin(), front.end(), &row) == front.end())
-        panel.dots.push_back(dot(row, false));
+    for (const DialRow* row : compared_rows(table, name))
+      if (std::find(front.begin(), front.end(), row) == front.end()) panel.dots.push_back(dot(*row, false));
     for (const DialRow* row : front) panel.dots.push_back(dot(*row, true));
     picture.panels.push_back(std::move(panel));
   }

@@ -10,7 +10,7 @@
 
 namespace tread {
 
-/// Cost and errors [%], a row a run.
+/// Cost and errors [%], a row a run; of the fluctuation behind a stroke.
 Table error_table(const DialTable& table);
 
 /// Shifts [mm].

@@ -31,7 +31,7 @@ DialRow row_of(const FinishedRun& run, const FinishedRun& reference) {
   for (const DialQuantity& quantity : dial_quantities())
     if (const auto difference = run_difference(run, reference, quantity))
       row.differences[quantity.name] =
-          run.label == reference.label ? CurveDifference{0, 0, 0.0, 0.0} : *difference;
+          run.label == reference.label ? CurveDifference{.range = 0.0, .shift = 0.0} : *difference;
   return row;
 }
 
@@ -54,12 +54,14 @@ double required_number(const JsonRecord& record, const std::string& key, const s
   return *number;
 }
 
-/// Rows other than the reference that have an error in the quantity.
-std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity) {
-  std::vector<const DialRow*> rows;
-  for (const DialRow& row : table.rows)
-    if (row.point != table.reference && error_of(row, quantity)) rows.push_back(&row);
-  return rows;
+/// Settings other than the element size and the quality, sorted.
+std::vector<std::string> beside_size(const DialRow& row) {
+  std::vector<std::string> settings = row.settings;
+  std::erase_if(settings, [](const std::string& one) {
+    return one.starts_with("scene.element_size=") || one.starts_with("scene.quality=");
+  });
+  std::sort(settings.begin(), settings.end());
+  return settings;
 }
 
 DialRow row_of(const JsonRecord& record, const std::string& name) {
@@ -76,6 +78,7 @@ DialRow row_of(const JsonRecord& record, const std::string& name) {
     difference.error = *error;
     difference.mean = required_number(record, quantity.name + "_mean", name);
     difference.range = number_in(record, quantity.name + "_range");
+    difference.fluctuation = number_in(record, quantity.name + "_fluctuation_error");
     difference.shift = number_in(record, quantity.name + "_shift_m");
   }
   return row;
@@ -91,6 +94,7 @@ Json row_json(const DialTable& table, const DialRow& row) {
     json[name + "_error"] = difference.error;
     json[name + "_mean"] = difference.mean;
     if (difference.range) json[name + "_range"] = *difference.range;
+    if (difference.fluctuation) json[name + "_fluctuation_error"] = *difference.fluctuation;
     if (difference.shift) json[name + "_shift_m"] = *difference.shift;
   }
   return json;
@@ -126,8 +130,26 @@ std::optional<double> error_of(const DialRow& row, const std::string& quantity) 
   std::optional<double> largest;
   for (const auto& [name, difference] : row.differences)
     if (name == quantity || quantity == kAllQuantities)
-      largest = std::max(largest.value_or(0), difference.error);
+      largest = std::max(largest.value_or(0), difference.fluctuation.value_or(difference.error));
   return largest;
+}
+
+std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity) {
+  std::size_t most = 0;
+  for (const DialRow& row : table.rows) most = std::max(most, row.differences.size());
+  std::vector<const DialRow*> rows;
+  for (const DialRow& row : table.rows) {
+    const bool whole = quantity != kAllQuantities || row.differences.size() == most;
+    if (row.point != table.reference && whole && error_of(row, quantity)) rows.push_back(&row);
+  }
+  return rows;
+}
+
+bool has_fluctuation(const DialTable& table) {
+  for (const DialRow& row : table.rows)
+    for (const auto& [name, difference] : row.differences)
+      if (difference.fluctuation) return true;
+  return false;
 }
 
 std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost) {
@@ -144,7 +166,16 @@ std::vector<const DialRow*> pareto_front(const DialTable& table, const std::stri
 
 const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost) {
   std::vector<const DialRow*> rows = compared_rows(table, quantity);
-  std::erase_if(rows, [&](const DialRow* row) { return *error_of(*row, quantity) > wanted; });
+  std::vector<const DialRow*> too_far = rows;
+  std::erase_if(too_far, [&](const DialRow* row) { return *error_of(*row, quantity) <= wanted; });
+  std::erase_if(rows, [&](const DialRow* row) {
+    const std::vector<std::string> settings = beside_size(*row);
+    return std::any_of(too_far.begin(), too_far.end(), [&](const DialRow* finer) {
+      const std::vector<std::string> fewer = beside_size(*finer);
+      return finer->elements >= row->elements &&
+             std::includes(settings.begin(), settings.end(), fewer.begin(), fewer.end());
+    });
+  });
   const auto first = [&](const auto& rank) {
     const auto found = std::min_element(
         rows.begin(), rows.end(), [&](const DialRow* x, const DialRow* y) { return rank(*x) < rank(*y); });
@@ -168,7 +199,8 @@ DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& re
 std::string dial_csv(const DialTable& table) {
   std::string text = "point,settings,elements [-],steps [-],element_steps [-],core_time [min]";
   for (const DialQuantity& quantity : dial_quantities())
-    text += fmt::format(",{0}_error [-],{0}_mean [-],{0}_range [-],{0}_shift [m]", quantity.name);
+    text += fmt::format(",{0}_error [-],{0}_mean [-],{0}_range [-],{0}_fluctuation_error [-],{0}_shift [m]",
+                        quantity.name);
   text += ",reference\n";
   for (const DialRow& row : table.rows) {
     text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.4g}", csv_cell(row.point),
@@ -179,6 +211,7 @@ std::string dial_csv(const DialTable& table) {
       const bool known = found != row.differences.end();
       text += known ? fmt::format(",{:.4g},{:.4g}", found->second.error, found->second.mean) : ",,";
       text += optional_cell(known ? found->second.range : std::nullopt);
+      text += optional_cell(known ? found->second.fluctuation : std::nullopt);
       text += optional_cell(known ? found->second.shift : std::nullopt);
     }
     text += fmt::format(",{}\n", csv_cell(table.reference));

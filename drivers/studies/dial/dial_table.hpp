@@ -37,21 +37,29 @@ DialCost dial_cost(const std::string& text);
 
 double cost_of(const DialRow& row, DialCost cost);
 
-/// The largest of a row's errors counts as the quantity "all".
+/// The largest of a row's errors counts as the quantity "all"; rows that lack a quantity have none.
 inline constexpr const char* kAllQuantities = "all";
 
 /// InputError where it is neither "all" nor a DialQuantity's name.
 void require_quantity(const std::string& option, const std::string& quantity);
 
-/// The row's error [-] in a quantity; nothing where it was not compared in it.
+/// The row's error [-] in a quantity, of the fluctuation if measured; nothing where it was not compared in
+/// it.
 std::optional<double> error_of(const DialRow& row, const std::string& quantity);
+
+/// Rows other than the reference that have an error in the quantity.
+std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity);
+
+/// Returns true if any row has an error of the fluctuation.
+bool has_fluctuation(const DialTable& table);
 
 /// The Pareto front: rows than which no other row is both cheaper and more accurate, cheapest first. The
 /// reference is not among them.
 std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost);
 
-/// The cheapest row whose error is `wanted` [-] at most, of several as cheap within 1 % the one with the
-/// fewest settings, then the nearest; null where there is none.
+/// The cheapest row whose error is `wanted` [-] at most, and that of all rows with as many elements or more
+/// and no other settings beside the size than it has: no row by luck. The one with the fewest settings of
+/// several as cheap within 1 %, then the nearest; null where there is none.
 const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost);
 
 /// The runs beside the reference. InputError where their curves do not read.

@@ -38,11 +38,22 @@ void require_known_friction(const ContactSpec& contact) {
       contact.friction_law));
 }
 
+/// An overlap pushes only where a contact takes it as it finds it.
+void require_useful_overlap(const Model& model, const DeckOptions& options) {
+  if (options.overlap == 0) return;
+  if (!model.contact) throw InputError("--overlap: the scene has no wheel on a rail; leave it out");
+  if (options.reader == DeckReader::ls_dyna)
+    throw InputError(
+        "--overlap: LS-DYNA moves overlapping nodes to the surface at t = 0, and they do not push; leave it "
+        "out, or state --for openradioss");
+}
+
 }  // namespace
 
 void require_deck_can_hold(const Model& model, const DeckOptions& options) {
   const Scene& scene = model.scene;
   require_known_laws(model, options);
+  require_useful_overlap(model, options);
   if (!scene.motion)
     throw InputError(
         "[motion] is missing: a keyword deck needs a time to end; add motion.duration, or set "
@@ -172,6 +183,9 @@ class Differences {
             ? "Contact stiffness: four times the reader's own. Overlap at the start pushes; --overlap "
               "deepens it until F_N is that of the static state."
             : "Contact stiffness: the reader's own.");
+    if (options_.preload && options_.reader == DeckReader::ls_dyna)
+      add("Contact at t = 0: without force. LS-DYNA moves overlapping nodes to the surface; F_N builds up "
+          "while the deck runs.");
     if (scene.contact->friction_law == "falling" && scene.contact->friction_memory > 0)
       add("contact.friction_memory: left out.");
     if (scene.corrugation && !scene.corrugation->centre)

@@ -58,6 +58,11 @@ void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out
   out.keyword("*CONTROL_TIMESTEP");
   out.names({"dtinit", "tssfac", "isdo", "tslimt", "dt2ms", "lctm"});
   out.card({step, summary.step_factor, 0, 0.0, -1e-6 * step, curve});
+  if (deck.options().reader != DeckReader::ls_dyna || !deck.model().wheelset) return;
+  out.remark("Stress update of second order: one of first order strains a wheel that turns.");
+  out.keyword("*CONTROL_ACCURACY");
+  out.names({"osu"});
+  out.card({1});
 }
 
 void write_output(const DeckModel& deck, KeywordDeck& out) {

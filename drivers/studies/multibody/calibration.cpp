@@ -13,6 +13,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/model_difference.hpp"
+#include "io/files/checkpoint_folder.hpp"
 #include "io/files/history_reader.hpp"
 
 namespace tread {
@@ -97,6 +98,13 @@ class Fit {
   std::vector<double> force_;  ///< force of the run at x [N]
 };
 
+/// TransientRun::unfinished of the run in a folder.
+std::string unfinished_text(const std::filesystem::path& folder) {
+  if (!CheckpointFolder(folder / kCheckpointFolder).holds_run()) return "";
+  return fmt::format("the run is not done: {}",
+                     is_taken(folder) ? "a process works on it" : resume_text(folder) + " goes on");
+}
+
 void require_same_passage(const MultibodyModel& model, const TransientRun& run) {
   const MultibodyModel theirs = multibody_model(run.scene, model.theory);
   std::string apart = track_difference(model, theirs);
@@ -123,10 +131,15 @@ double TransientRun::speed_between(double first, double last) const {
   return (x[b] - x[a]) / (time[b] - time[a]);
 }
 
+std::string TransientRun::further() const {
+  return unfinished.empty() ? "let it roll further (motion.duration)" : unfinished;
+}
+
 TransientRun read_transient_run(const std::filesystem::path& directory, const std::string& force) {
   TransientRun run;
   run.directory = directory;
   require_run_folder(directory);
+  run.unfinished = unfinished_text(directory);
   if (!std::filesystem::exists(directory / kKeptScene))
     throw InputError(
         fmt::format("{}: it is no run's folder, it has no {}; give the one that `tread run -o` was given, of "
@@ -139,14 +152,17 @@ TransientRun read_transient_run(const std::filesystem::path& directory, const st
     throw InputError(
         fmt::format("{}: a run without [motion] has no histories; give the folder of a run that rolls",
                     directory.string()));
+  const std::filesystem::path histories = directory / "histories.csv";
+  if (!run.unfinished.empty() && !std::filesystem::exists(histories))
+    throw InputError(fmt::format("{}: it has not rolled yet; {}", directory.string(), run.unfinished));
   std::vector<std::vector<double>> columns =
-      read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {force, "N"}});
+      read_history(histories, {{"time", "s"}, {"wheel_x", "m"}, {force, "N"}});
   run.time = std::move(columns[0]);
   run.x = std::move(columns[1]);
   run.force = std::move(columns[2]);
   if (run.x.size() < 2 || !std::is_sorted(run.x.begin(), run.x.end()))
-    throw InputError(fmt::format("{}: expected at least two rows with a growing wheel_x",
-                                 (directory / "histories.csv").string()));
+    throw InputError(fmt::format("{}: expected at least two rows with a growing wheel_x; {}",
+                                 histories.string(), run.further()));
   return run;
 }
 
@@ -187,8 +203,8 @@ Calibration calibrate(const MultibodyModel& model, const TransientRun& run, cons
   if (fit.last - fit.first < wave)
     throw InputError(
         fmt::format("{}: the run covers x = {:.3f} to {:.3f} m, less than {:.3g} mm of the stretch that is "
-                    "evaluated; let it roll further (motion.duration)",
-                    option, run.x.front(), run.x.back(), 1e3 * wave));
+                    "evaluated; {}",
+                    option, run.x.front(), run.x.back(), 1e3 * wave, run.further()));
   require_samples(run, option, {fit.first, fit.last}, wave);
   Calibration c;
   c.first = fit.first;

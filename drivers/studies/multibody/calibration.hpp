@@ -14,6 +14,7 @@ struct TransientRun {
   std::filesystem::path directory;
   Scene scene;
   std::string changed;        ///< sentence on a file of the scene that has changed since; empty: none
+  std::string unfinished;     ///< sentence on a run that is not done, with its way on; empty: it is done
   std::vector<double> time;   ///< [s]
   std::vector<double> x;      ///< ascending places of the wheel [m]
   std::vector<double> force;  ///< F_N, or the force that was asked for [N]
@@ -21,6 +22,8 @@ struct TransientRun {
   /// Mean speed over the samples within [first, last] [m/s]. Traction has made the wheel faster than
   /// motion.speed. 0 with fewer than two samples.
   double speed_between(double first, double last) const;
+  /// Way out where the run does not roll as far as needed.
+  std::string further() const;
 };
 
 /// Reads histories.csv and scene.resolved.toml of a run's directory; `force`: column of the force [N]. Throws

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/math/statistics.hpp"
@@ -118,6 +120,44 @@ std::vector<std::string> range_warnings(const MultibodyModel& model, const Multi
   return warnings;
 }
 
+/// Place [m] where the least-squares parabola of forces [N] at x [m] is largest; nullopt unless it is among
+/// them.
+std::optional<double> vertex(std::span<const double> x, std::span<const double> force) {
+  const auto mean = [&](const auto& value) {
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += value(i);
+    return sum / static_cast<double>(x.size());
+  };
+  const double middle = mean([&](std::size_t i) { return x[i]; });
+  const auto u = [&](std::size_t i) { return x[i] - middle; };
+  // F = F0 + c1 u + c2 q(u); 1, u and q are orthogonal over the samples.
+  const double square = mean([&](std::size_t i) { return u(i) * u(i); });
+  const double lean = mean([&](std::size_t i) { return u(i) * u(i) * u(i); }) / square;
+  const auto q = [&](std::size_t i) { return u(i) * u(i) - lean * u(i) - square; };
+  const double c1 = mean([&](std::size_t i) { return u(i) * force[i]; }) / square;
+  const double c2 =
+      mean([&](std::size_t i) { return q(i) * force[i]; }) / mean([&](std::size_t i) { return q(i) * q(i); });
+  const double place = middle + 0.5 * (lean - c1 / c2);
+  return c2 < 0 && place >= x.front() && place <= x.back() ? std::optional(place) : std::nullopt;
+}
+
+/// Peak of forces [N] at x [m]: the vertex over the samples about the largest that lack at most 5 % of the
+/// range; the largest sample itself where they are no hill.
+CrestPeak peak_of(std::span<const double> x, std::span<const double> force) {
+  constexpr double kShareOfRange = 0.05;
+  const auto [least, most] = std::minmax_element(force.begin(), force.end());
+  const auto lower = [limit = *most - kShareOfRange * (*most - *least)](double f) { return f < limit; };
+  const auto top = most - force.begin();
+  const auto first =
+      std::find_if(std::make_reverse_iterator(most), force.rend(), lower).base() - force.begin();
+  const auto count = std::find_if(most, force.end(), lower) - force.begin() - first;
+  const auto about = [&](std::span<const double> all) {
+    return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+  };
+  const std::optional<double> place = count < 3 ? std::nullopt : vertex(about(x), about(force));
+  return {.peak = place.value_or(x[static_cast<std::size_t>(top)]), .force = *most};
+}
+
 }  // namespace
 
 std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
@@ -129,9 +169,11 @@ std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavele
     const auto first = std::lower_bound(x.begin(), x.end(), crest - half);
     const auto last = std::upper_bound(first, x.end(), crest + half);
     if (first == x.begin() || last == x.end() || first == last) continue;
-    const auto at = std::max_element(force.begin() + (first - x.begin()), force.begin() + (last - x.begin()));
-    const double peak = x[static_cast<std::size_t>(at - force.begin())];
-    peaks.push_back({crest, peak, *at, 2 * std::numbers::pi * (crest - peak) / wavelength});
+    CrestPeak found =
+        peak_of({first, last}, {force.begin() + (first - x.begin()), force.begin() + (last - x.begin())});
+    found.crest = crest;
+    found.shift = 2 * std::numbers::pi * (crest - found.peak) / wavelength;
+    peaks.push_back(found);
   }
   return peaks;
 }

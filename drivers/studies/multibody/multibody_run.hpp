@@ -26,7 +26,7 @@ struct MultibodySample {
 struct CrestPeak {
   double crest = 0;  ///< x of the crest [m]
   double peak = 0;   ///< x of the peak [m]
-  double force = 0;  ///< [N]
+  double force = 0;  ///< largest sample [N]
   double shift = 0;  ///< lead before the crest, a wavelength being 2 pi [rad]
 };
 
@@ -55,8 +55,9 @@ struct MultibodyResult {
 /// step turns out to be unstable.
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step);
 
-/// Largest forces about the crests of a sine: `force` at `x`, both by ascending x. A crest is left out unless
-/// the curve covers half a wave on both sides.
+/// Largest forces about the crests of a sine: `force` [N] at `x` [m], both by ascending x. A peak stands
+/// where the least-squares parabola of the samples within 5 % of their range is largest. A crest is left out
+/// unless the curve covers half a wave on both sides.
 std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
                                    const std::vector<double>& x, const std::vector<double>& force);
 

@@ -107,7 +107,6 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
     progress.say(
         fmt::format("[map] {} passages, {}", outcome.map->points.size(), duration_text(progress.seconds())));
   }
-  for (const std::string& warning : warnings_of(outcome)) progress.say("[warning] " + warning);
   outcome.seconds = progress.seconds();
   if (!options.output.empty()) {
     make_directory(options.output);
@@ -120,6 +119,7 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
   fmt::print("{}", plain_text(multibody_table(outcome)));
   if (outcome.calibration)
     fmt::print("\n{}", plain_text(calibration_table(*outcome.calibration, outcome.model)));
+  for (const std::string& warning : warnings_of(outcome)) fmt::print("\n[warning] {}\n", warning);
 }
 
 }  // namespace tread

@@ -190,8 +190,9 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   const Corrugation corrugation = corrugation_of(spec, 0);
   const Span stretch = evaluated_stretch(run.scene, corrugation);
   if (run.x.back() < std::min(stretch.first + spec.wavelength, stretch.last))
-    throw InputError(fmt::format("{}: the run ends at x = {:.3f} m, before a wave of its corrugation is past",
-                                 name, run.x.back()));
+    throw InputError(
+        fmt::format("{}: the run ends at x = {:.3f} m, before a wave of its corrugation is past; {}", name,
+                    run.x.back(), run.further()));
   require_samples(run, name, {std::max(stretch.first, run.x.front()), std::min(stretch.last, run.x.back())},
                   spec.wavelength);
   Extremes extremes;

@@ -34,6 +34,20 @@ double static_load(const FinishedRun& run) {
   return run.number("static_wheel_load_N").value_or(0);
 }
 
+/// Largest creepage of the column at the places of the evaluated stretch that count, over the steady one [-].
+template <class Counts>
+std::optional<double> creepage_ratio(const FinishedRun& run, const char* column, const Counts& counts) {
+  const CurvePoints curve = history_over_way(run, column, "-");
+  const double first = run.number("evaluated_x_m.0").value_or(0);
+  const double last = run.number("evaluated_x_m.1").value_or(0);
+  const double steady = 1e-2 * steady_creepage(run).value_or(0);
+  double most = 0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (curve.x[i] >= first && curve.x[i] <= last && counts(curve.x[i])) most = std::max(most, curve.y[i]);
+  if (steady <= 0 || vertical_peaks(run).empty()) return std::nullopt;
+  return most / steady;
+}
+
 }  // namespace
 
 bool WavePattern::larger_at_crests() const {
@@ -154,16 +168,18 @@ std::optional<double> steady_creepage(const FinishedRun& run) {
   return run.number("creepage_percent");
 }
 
-std::optional<double> creepage_ratio(const FinishedRun& run, const char* column) {
-  const CurvePoints curve = history_over_way(run, column, "-");
-  const double first = run.number("evaluated_x_m.0").value_or(0);
-  const double last = run.number("evaluated_x_m.1").value_or(0);
-  const double steady = 1e-2 * steady_creepage(run).value_or(0);
-  double most = 0;
-  for (std::size_t i = 0; i < curve.x.size(); ++i)
-    if (curve.x[i] >= first && curve.x[i] <= last) most = std::max(most, curve.y[i]);
-  if (steady <= 0 || vertical_peaks(run).empty()) return std::nullopt;
-  return most / steady;
+std::optional<double> mean_creepage_ratio(const FinishedRun& run) {
+  return creepage_ratio(run, "creepage_mean", [](double) { return true; });
+}
+
+std::optional<double> node_creepage_ratio(const FinishedRun& run) {
+  const std::optional<double> steady = steady_creepage(run);
+  if (!steady || vertical_peaks(run).empty()) return std::nullopt;
+  const double reach = 2 * multibody_model(run.scene, BeamTheory::euler).patch.semi_axis_x;
+  const double turn = std::numbers::pi * run.scene.wheel->diameter / (1 + 1e-2 * *steady);
+  return creepage_ratio(run, "creepage_node", [&](double x) {
+    return std::abs(std::remainder(x - run.scene.start_x(), turn)) > reach;
+  });
 }
 
 CurvePoints force_over_way(const MultibodyResult& result) {

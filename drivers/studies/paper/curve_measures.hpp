@@ -52,9 +52,13 @@ std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRu
 /// stretch.
 std::optional<double> steady_creepage(const FinishedRun& run);
 
-/// Largest value of the column of creepages over the evaluated stretch, over steady_creepage() [-]; nullopt
-/// without a positive one, or if the run has not come to a crest.
-std::optional<double> creepage_ratio(const FinishedRun& run, const char* column);
+/// Largest mean creepage of the tread's points over the evaluated stretch, over steady_creepage() [-];
+/// nullopt without a positive one, or if the run has not come to a crest.
+std::optional<double> mean_creepage_ratio(const FinishedRun& run);
+
+/// The same at N_cr, the point that starts in the patch. Places within one length of Hertz's patch of its
+/// whole turns do not count: there the point itself sticks and slips in the patch, on a smooth rail, too.
+std::optional<double> node_creepage_ratio(const FinishedRun& run);
 
 /// F_N of the multi-body approach over the way, SI.
 CurvePoints force_over_way(const MultibodyResult& result);

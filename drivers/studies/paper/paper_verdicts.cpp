@@ -142,8 +142,8 @@ Judgement oscillates_to_full_sliding(const PassageRuns& runs) {
   const FinishedRun* run = runs.find(corrugated());
   if (!passed(run)) return missing("corrugation D");
   const auto slip = run->number("full_slip_share");
-  const auto at_node = creepage_ratio(*run, "creepage_node");
-  const auto mean = creepage_ratio(*run, "creepage_mean");
+  const auto at_node = node_creepage_ratio(*run);
+  const auto mean = mean_creepage_ratio(*run);
   if (!slip) return missing("its share of full slip");
   if (!at_node || !mean) return missing("a steady creepage before corrugation D");
   constexpr double kSignificant = 1.5;
@@ -151,7 +151,7 @@ Judgement oscillates_to_full_sliding(const PassageRuns& runs) {
       of_parts({*slip > 0 && *slip<1, *at_node> kSignificant}),
       fmt::format(
           "the whole patch slides during {:.1f} % of the way; largest creepage over the steady one {:.2f} "
-          "at N_cr, {:.2f} in the mean of 28 nodes",
+          "at N_cr outside the patch, {:.2f} in the mean of 28 nodes",
           100 * *slip, *at_node, *mean)};
 }
 
@@ -262,7 +262,9 @@ const std::vector<Conclusion>& paper_conclusions() {
       {3,
        "The contact may oscillate between rolling-sliding and full sliding, with a significantly higher "
        "creepage",
-       "the whole patch slides on a part of the way; largest creepage at N_cr above 1.5 times the steady one",
+       "the whole patch slides on a part of the way; largest creepage at N_cr outside the patch above 1.5 "
+       "times the "
+       "steady one",
        oscillates_to_full_sliding},
       {4, "Fluctuations of Von Mises stress and frictional work grow with the traction coefficient",
        "both ranges grow from mu 0.1 to 0.5", grows_with_traction},

@@ -72,6 +72,8 @@ std::vector<Line> listing(const ShownProfile& profile) {
     lines.push_back({"Head", fmt::format("{} wide 14 mm below the crown, middle at y = {}",
                                          length_text(m.head_width), length_text(m.head_middle))});
     if (profile.section) {
+      if (const double lean = head_lean(profile.curve, 0); lean != 0)
+        lines.push_back({"Lean", lean_hint(lean)});
       const SectionConstants c = section_constants(*profile.section);
       lines.push_back({"Section", fmt::format("area {:.2f} cm2, height {:g} mm, I_y {:.1f} cm4 (vertical), "
                                               "I_z {:.1f} cm4, {:.2f} kg/m of 7850 kg/m3",

@@ -129,7 +129,7 @@ Report report_of(const Outcome& o, const RoughnessOptions& options) {
 
 TableRules rules_of(const RoughnessOptions& options) {
   TableRules rules{.needs_units = true, .increasing = true, .names = kDepthNames};
-  rules.example = options.depth ? "depth [um]" : "height [um]";
+  rules.example = options.depth ? "x [m]  depth [um]" : "x [m]  height [um]";
   rules.units_option = "--units m,um";
   if (options.units.empty()) return rules;
   const auto comma = options.units.find(',');

@@ -86,6 +86,7 @@ struct ResultColumn {
   double scale = 1;      ///< factor to the readers' unit
   double si_scale = 1;   ///< factor from the summary to SI
   bool at_rest = false;  ///< shown to readers only where no run rolls
+  bool truth = false;    ///< true or false in the summary, 1 or 0 in CSV
 };
 
 /// Headline results of a run, in the order of tables.

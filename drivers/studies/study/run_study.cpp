@@ -11,12 +11,12 @@
 #include <optional>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "drivers/process/interruption.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/results/disk_use.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/study/job_array.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
@@ -93,6 +93,19 @@ std::string lacking_here(const StudyPlan& plan, const StudyOptions& options) {
       plan.jobs, each, plan.jobs * each, cores);
 }
 
+/// Refuses runs for which this machine lacks launcher, cores or card.
+void require_machine(StudyPlan& plan, const StudyOptions& options) {
+  const std::string card = missing_device(plan.device);
+  const bool here = !options.list && plan.elsewhere.empty();
+  const std::string lacking = lacking_here(plan, options);
+  const bool refuses = !lacking.empty() || (here && !card.empty());
+  if (!options.output.empty() && (options.list || refuses)) look_into_folders(plan);
+  const auto to_run = [&](const PlannedPoint& point) { return point.to_run(options.retry); };
+  if (!refuses || std::ranges::none_of(plan.points, to_run)) return;
+  if (!lacking.empty()) throw InputError(lacking);
+  throw ResourceError(card);
+}
+
 /// Lowers the number of runs at once if memory is short and their number was not stated.
 void mind_memory(StudyPlan& plan, const StudyOptions& options) {
   if (stated(options.jobs, plan.study.jobs) > 0 || !plan.elsewhere.empty()) return;
@@ -100,8 +113,9 @@ void mind_memory(StudyPlan& plan, const StudyOptions& options) {
 }
 
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
-  const std::string saved =
+  std::string saved =
       cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
+  if (!plan.device.empty() && plan.device != "cpu") saved += "; times are the processor's";
   if (!plan.elsewhere.empty())
     return fmt::format(
         "{} runs at once by {}: {} one after the other{} at this machine's speed, {} on the disk", plan.jobs,
@@ -136,17 +150,6 @@ std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
   for (const auto& [text, points] : planned_warnings(plan))
     json["warnings"].push_back({{"text", text}, {"points", points}});
   return json_text(json);
-}
-
-void require_disk(const StudyPlan& plan) {
-  std::error_code error;
-  const std::filesystem::space_info space = std::filesystem::space(plan.folder, error);
-  const std::int64_t needed = disk_still_needed(plan);
-  if (error || static_cast<std::uintmax_t>(needed) <= space.available) return;
-  throw ResourceError(fmt::format(
-      "the study needs about {} more, the disk of {} has {} left; free some or choose "
-      "another folder with -o",
-      bytes_text(needed), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
 }
 
 /// Writes the scene of a study that brings its own.
@@ -267,10 +270,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                                                                "checkpoints with `{}`",
                                                                                resume_command));
   if (!options.list && require_folder_of(plan.folder, command)) require_same_study(plan);
-  const std::string lacking = lacking_here(plan, options);
-  if (!options.output.empty() && (options.list || !lacking.empty())) look_into_folders(plan);
-  const auto to_run = [&](const PlannedPoint& point) { return point.to_run(options.retry); };
-  if (!lacking.empty() && std::ranges::any_of(plan.points, to_run)) throw InputError(lacking);
+  require_machine(plan, options);
   std::optional<RunFolder> folder;
   if (!options.list) {
     make_directory(plan.folder);
@@ -287,10 +287,11 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                         (warnings.empty() ? "" : "\n" + warnings + "\n"));
     return std::nullopt;
   }
-  require_disk(plan);
+  require_free_disk("the study", disk_still_needed(plan), plan.folder,
+                    "free some or choose another folder with -o");
   leave_scene(study);
   if (const std::string warnings = plan_warning_text(plan, kMostShown); !warnings.empty())
-    progress.say(fmt::format("[{}] {}", command, warnings));
+    progress.warn(fmt::format("[{}] {}", command, warnings));
   if (!options.slurm.empty()) {
     write_job_array(plan, options.slurm, options.retry, options.origin.command);
     return std::nullopt;
@@ -305,7 +306,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
           warning_text(shared_warnings(finished), fmt::format("{} finished points", finished.size()),
                        kMostShown, "report.html in the folders of the points");
       !warnings.empty())
-    progress.say(fmt::format("[{}] {}", command, warnings));
+    progress.warn(fmt::format("[{}] {}", command, warnings));
   return shortfall(plan, stopped_by, resume_command, options);
 }
 

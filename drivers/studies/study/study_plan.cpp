@@ -144,13 +144,17 @@ void try_point(PlannedPoint& point, const Study& study, PointProblems& problems,
   }
 }
 
+/// Content on which the time of an element's step depends: all that has one of these effects.
+SceneContent element_content(const PlannedPoint& point, Effects those = {Effect::mesh, Effect::cost}) {
+  const std::optional<CorrugationSpec>& spec = point.resolved.scene.corrugation;
+  if (spec && spec->apply == "nodes") those = those | Effects{Effect::surface};
+  return content_of(point.resolved, [&](Effects effects) { return effects.any_of(those); });
+}
+
 /// Content on which the costs of a point's model depend.
 SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
-  const bool moves_nodes = scene.corrugation && scene.corrugation->apply == "nodes";
-  SceneContent content = content_of(point.resolved, [&](Effects effects) {
-    return effects.on_cost() || (moves_nodes && effects.has(Effect::surface));
-  });
+  SceneContent content = element_content(point, {Effect::mesh, Effect::cost, Effect::output});
   if (const auto room = room_of(plan, point)) content["room"] = fmt::format("{}", *room);
   content["start"] = scene.start();
   add_run(content, scene);
@@ -174,12 +178,14 @@ Estimate prolonged(Estimate cost, double ratio) {
   return cost;
 }
 
-/// Builds the model of points that have the same one, and fills their costs and warnings.
-void project_alike(StudyPlan& plan, const std::vector<PlannedPoint*>& points) {
+/// Builds the model of points that have the same one, and fills their costs and warnings. `times`: of models
+/// by element_content(), so that points of one mesh do not differ by the load of the machine.
+void project_alike(StudyPlan& plan, const std::vector<PlannedPoint*>& points,
+                   std::map<SceneContent, ElementTimes>& times) {
   const PlannedPoint& first = *points.front();
   Model model = scene_model(keeping_scene(plan, first), first.resolved);
   const double reach = model.contact ? model.contact->reach() : 0;
-  const Estimate cost = estimate(model, file_bytes(first.resolved.source));
+  const Estimate cost = estimate(model, file_bytes(first.resolved.source), times[element_content(first)]);
   const double duration = duration_of(first);
   for (PlannedPoint* point : points) {
     const Scene& scene = point->resolved.scene;
@@ -297,11 +303,13 @@ void project_cost(StudyPlan& plan, bool retry) {
   use_threads({std::clamp(plan.threads, 1, machine_cores()), ""});
   PointProblems problems(plan.study);
   std::map<SceneContent, std::vector<PlannedPoint*>> alike;
+  std::map<SceneContent, ElementTimes> times;
   for (PlannedPoint& point : plan.points)
     if (point.to_run(retry)) alike[model_content(plan, point)].push_back(&point);
   for (const auto& group : alike) {
     const std::vector<PlannedPoint*>& points = group.second;
-    try_point(*points.front(), plan.study, problems, [&](PlannedPoint&) { project_alike(plan, points); });
+    try_point(*points.front(), plan.study, problems,
+              [&](PlannedPoint&) { project_alike(plan, points, times); });
   }
   problems.throw_if_any();
   choose_keepers(plan, retry);
@@ -326,7 +334,8 @@ StudyCost total_cost(const StudyPlan& plan) {
                                                                : point.cost->seconds());
     memory.push_back(point.cost->memory);
   }
-  cost.wall = plan.threads > 0 ? std::max(longest, cost.seconds / plan.jobs) : cost.seconds / machine_cores();
+  const bool apart = plan.threads > 0 || plan.cards > 0;  // else one run takes idle cores of another
+  cost.wall = apart ? std::max(longest, cost.seconds / plan.jobs) : cost.seconds / machine_cores();
   cost.disk = disk_need(plan, [](const PlannedPoint&) { return std::int64_t{0}; });
   cost.memory = sum_at_once(plan, std::move(memory));
   return cost;

@@ -45,6 +45,12 @@ Json value_json(const PlannedPoint& point, const std::string& path) {
   return json;
 }
 
+/// End of a name in JSON: "_N", "_per_m", none for pure numbers.
+std::string unit_suffix(const std::string& unit) {
+  if (unit == "-") return "";
+  return unit.starts_with("1/") ? "_per_" + unit.substr(2) : "_" + unit;
+}
+
 /// First key whose values are numbers and differ.
 std::string abscissa_key(const StudyPlan& plan) {
   for (const std::string& key : varied_keys(plan)) {
@@ -134,7 +140,7 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
   for (const std::string& key : keys) text += fmt::format(",{} [{}]", key, unit_of(key));
   for (const ResultColumn& column : result_columns())
     text += fmt::format(",{} [{}]", column.name, column.unit);
-  text += ",state_hash\n";
+  text += ",warnings [-],state_hash\n";
   for (const PlannedPoint& point : plan.points) {
     text += fmt::format("{},{}", csv_cell(point.name), name_of(point.status.state));
     for (const std::string& key : keys) text += fmt::format(",{}", csv_cell(value_text(point, key)));
@@ -143,7 +149,9 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
       const std::optional<double> value = run ? result_of(*run, column) : std::nullopt;
       text += value ? fmt::format(",{:.9g}", *value) : ",";
     }
-    text += fmt::format(",{}\n", run ? text_in(run->summary, "state_hash") : "");
+    text +=
+        run ? fmt::format(",{},{}\n", warnings_in(run->summary).size(), text_in(run->summary, "state_hash"))
+            : ",,\n";
   }
   return text;
 }
@@ -158,7 +166,8 @@ std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& ru
     const FinishedRun* run = find_run(runs, point.name);
     for (const ResultColumn& column : result_columns())
       if (const auto value = run ? result_of(*run, column) : std::nullopt)
-        one[column.name + (column.unit == "-" ? "" : "_" + column.unit)] = *value;
+        one[column.name + unit_suffix(column.unit)] = column.truth ? Json(*value != 0) : Json(*value);
+    if (run) one["warnings"] = warnings_in(run->summary).size();
     if (run) one["state_hash"] = text_in(run->summary, "state_hash");
     points.push_back(one);
   }
@@ -182,7 +191,9 @@ Table result_table(const std::vector<FinishedRun>& runs) {
     std::vector<std::string> row = {run.label};
     for (const ResultColumn* column : shown) {
       const auto value = result_of(run, *column);
-      row.push_back(value ? readable(column->scale * *value) : "–");
+      row.push_back(!value          ? "–"
+                    : column->truth ? (*value != 0 ? "yes" : "no")
+                                    : readable(column->scale * *value));
     }
     table.rows.push_back(std::move(row));
   }
@@ -255,7 +266,8 @@ Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
   results.blocks.emplace_back(Text{
       "Forces, creepage and stresses: largest and smallest over the evaluated stretch, a corrugation less "
       "half a wave at each end or the solution zone of a smooth rail. Work: in a cell of 1.1 mm x 1.1 mm "
-      "on the patch's longitudinal axis there. Creepage: steady before it. Where the wheel has not "
+      "on the patch's longitudinal axis there. Passed: the wheel has come to the end of that stretch. "
+      "Creepage: mean before it; Steady: F_L / F_N does not drift there. Where the wheel has not "
       "reached the corrugation, all but the steady creepage are empty. Every column and more, in SI: "
       "sweep.csv."});
   report.chapters.push_back(std::move(results));

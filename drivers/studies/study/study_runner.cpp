@@ -262,6 +262,7 @@ void StudyRunner::obey() {
   if (request == RunRequest::frame)
     for (const Running& running : running_)
       if (owns_folder(running)) leave(running, RunRequest::frame);
+  if (request) folder_->answer_request();
   if (!checkpoint) return;
   for (const Running& running : running_) {
     if (plan_->launcher.empty())
