@@ -3,9 +3,10 @@
 #
 #   perf/absent_features.sh [PROGRAM]      default: build/release/tread
 #
-# The scene beside this script lacks friction, damping, corrugation, slab, dampers and torque. Every feature is stated as zero or
-# as not present, which must cost nothing (0.5 %) and leave the same state, and then given a value, which shows what it
-# costs. Two runs of different length each: their difference is free of what is done once. Exits 3 where a bound fails.
+# The scene beside this script lacks friction, damping, corrugation, surfaces, slab, sleepers, dampers and torque. Every
+# feature that can be stated as zero or as not present must cost nothing then (0.5 %) and leave the same state; each is
+# given a value, which shows what it costs. Two runs of different length each: their difference is free of what is done
+# once. Exits 3 where a bound fails.
 set -euo pipefail
 export LC_ALL=C # numbers with a decimal point
 
@@ -70,6 +71,7 @@ absent "damping: rayleigh_beta 0 s" --set 'material.steel.damping={ kind = "rayl
 absent "slab: not present" --set slab.present=false
 absent "corrugation: not present" --set corrugation.present=false
 absent "vehicle: not present" --set vehicle.present=false
+absent "sleepers: not present" --set sleepers.present=false
 present "friction 0.5" --set contact.friction=0.5
 present "fastenings' dampers: 200 kN s/m" --set "fastenings.damping=200 kN s/m"
 present "torque: 1 kN m, friction 0.5" --set contact.friction=0.5 --set "motion.traction.torque=1 kN m"
@@ -77,4 +79,12 @@ present "damping: high_frequency_fraction 1e-4" \
   --set 'material.steel.damping={ kind = "high_frequency_fraction", value = 1e-4 }'
 present "corrugation in the gap, 50 um" --set "corrugation.depth=50 um" --set "corrugation.wavelength=20 mm" \
   --set "corrugation.start=-20 mm" --set "corrugation.length=60 mm" --set corrugation.apply=gap
+present "sleepers" --set "material.concrete.youngs_modulus=35 GPa" --set material.concrete.poissons_ratio=0.2 \
+  --set "material.concrete.density=2400 kg/m3" --set "sleepers.stiffness=40 MN/m"
+present "support: half the stiffness" --set support.odd.fastening=1 --set support.odd.stiffness=0.5
+present "surface: dip of 20 um" --set surface.dip.kind=dip --set "surface.dip.at=10 mm" \
+  --set "surface.dip.length=40 mm" --set "surface.dip.depth=20 um"
+printf '# x [mm], y [mm], d [um]\n-20,-9,0\n0,-9,0\n20,-9,0\n-20,9,0\n0,9,20\n20,9,0\n' > "$work/map.csv"
+present "surface: map of 20 um" --set surface.map.kind=map --set "surface.map.at=0 mm" --set "surface.map.file=$work/map.csv"
+present "zone: one more" --set "zone.more.start=60 mm" --set "zone.more.length=40 mm"
 exit $((failed * 3))

@@ -57,6 +57,7 @@ struct ReadDeck {
   std::vector<Contact> contacts;
   std::vector<Load> loads;
   Card time_step;                  ///< of *CONTROL_TIMESTEP
+  Card accuracy;                   ///< of *CONTROL_ACCURACY
   std::set<std::int64_t> watched;  ///< nodes whose histories are written
   double gravity = 0, end = 0;
 };
@@ -119,6 +120,7 @@ class DeckParser {
       ADD_FAILURE() << "unknown keyword " << keyword_;
     if (keyword_ == "*CONTROL_TERMINATION") deck_.end = real(tens(cards_.at(0))[0]);
     if (keyword_ == "*CONTROL_TIMESTEP") deck_.time_step = tens(cards_.at(0));
+    if (keyword_ == "*CONTROL_ACCURACY") deck_.accuracy = tens(cards_.at(0));
     if (keyword_ == "*DATABASE_HISTORY_NODE")
       for (const std::string& field : tens(cards_.at(0)))
         if (!field.empty()) deck_.watched.insert(whole(field));

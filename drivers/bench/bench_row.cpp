@@ -27,7 +27,8 @@ std::string json_line(const BenchRow& row) {
                {"bytes_per_element_step", row.work.bytes},
                {"flops_per_element_step", row.work.flops},
                {"spread", row.measured.spread},
-               {"repetitions", row.measured.repetitions}};
+               {"repetitions", row.measured.repetitions},
+               {"processor_share", row.measured.processor_share}};
   if (row.counted_calls > 0) json["counted_calls"] = row.counted_calls;
   if (row.instructions > 0) json["instructions_per_element_step"] = row.instructions;
   return json_line(json);

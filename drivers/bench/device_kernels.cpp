@@ -75,21 +75,30 @@ class MarchedBlock {
   StepLoads loads_;
 };
 
+Measurement device_triad(Device& device, const MeasurementPlan& plan) {
+  DeviceArray<double> a(device, kTriadValues);
+  DeviceArray<double> b(device, kTriadValues);
+  DeviceArray<double> c(device, kTriadValues);
+  return measure({[&] {
+                   device.triad(kTriadValues, a.data(), b.data(), c.data());
+                   device.wait();
+                 }},
+                 plan);
+}
+
+double byte_seconds_of(const Measurement& triad) {
+  return triad.fastest / (kTriadBytes * static_cast<double>(kTriadValues));
+}
+
 class DeviceRows {
  public:
   DeviceRows(Device& device, const BenchKernelsOptions& options) : device_(&device), options_(&options) {}
 
   void add_limits() {
-    DeviceArray<double> a(*device_, kTriadValues);
-    DeviceArray<double> b(*device_, kTriadValues);
-    DeviceArray<double> c(*device_, kTriadValues);
-    const Measurement triad = measure({[&] {
-                                        device_->triad(kTriadValues, a.data(), b.data(), c.data());
-                                        device_->wait();
-                                      }},
-                                      options_->plan);
-    seconds_per_byte_ = triad.fastest / (kTriadBytes * static_cast<double>(kTriadValues));
+    const Measurement triad = device_triad(*device_, options_->plan);
+    seconds_per_byte_ = byte_seconds_of(triad);
     add("triad", "memory", "double", "value", kTriadValues, triad, {2, kTriadBytes});
+    DeviceArray<double> a(*device_, kTriadValues);
     AlignedVector<double> host(static_cast<std::size_t>(kTriadValues), 1.0);
     add("copy", "to the device", "double", "value", kTriadValues,
         measure({[&] { a.upload(host.data()); }}, options_->plan), {0, sizeof(double)});
@@ -97,7 +106,7 @@ class DeviceRows {
         measure({[&] { a.download(host.data()); }}, options_->plan), {0, sizeof(double)});
     add("launch", "of one value", "double", "launch", 1,
         measure({[&] {
-                  device_->triad(1, a.data(), b.data(), c.data());
+                  device_->triad(1, a.data(), a.data(), a.data());
                   device_->wait();
                 }},
                 options_->plan),
@@ -148,6 +157,10 @@ class DeviceRows {
 };
 
 }  // namespace
+
+double byte_seconds(Device& device, const MeasurementPlan& plan) {
+  return byte_seconds_of(device_triad(device, plan));
+}
 
 std::vector<BenchRow> measure_device(Device& device, const BenchKernelsOptions& options) {
   DeviceRows rows(device, options);

@@ -9,6 +9,9 @@
 
 namespace tread {
 
+/// Time in which the device's triad moves a byte [s].
+double byte_seconds(Device& device, const MeasurementPlan& plan);
+
 /// Triad, copies to and from the device, the shortest launch, and the march over blocks of all kinds. The
 /// limit of a march is the time in which the triad moves its bytes.
 std::vector<BenchRow> measure_device(Device& device, const BenchKernelsOptions& options);

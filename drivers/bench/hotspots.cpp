@@ -13,11 +13,13 @@
 #include "core/math/statistics.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
+#include "drivers/bench/device_kernels.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/projection.hpp"
 #include "drivers/bench/rolling_scene.hpp"
 #include "drivers/bench/step_work.hpp"
+#include "drivers/process/core_watch.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -89,6 +91,17 @@ class DeviceSteps {
   std::vector<double> to_device_, from_device_, launches_;  ///< by step
 };
 
+/// Sentences under the table.
+std::string closing_note(const DeviceSteps& on_device) {
+  if (!on_device.any())
+    return "Beside: core-time beside the elements, whose time holds it. All other phases run one after the "
+           "other.\n";
+  return "Work on a device overlaps: a phase holds what the processor does, and waits for, in it. The limit "
+         "is the "
+         "device's triad.\n" +
+         on_device.text();
+}
+
 double imbalance(const ParallelTimes& times) {
   const double sum = times.busy();
   double most = 0;
@@ -96,19 +109,22 @@ double imbalance(const ParallelTimes& times) {
   return sum > 0 ? most * threads() / sum : 0;
 }
 
+/// `of_byte`: the device's byte_seconds(). The bytes of a step are moved some time during it: phases then
+/// have no load and no limit. 0: the processor takes the steps [s]
 std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, std::int64_t steps,
-                                 Limits& limits) {
+                                 Limits& limits, double of_byte) {
   std::vector<Hotspot> spots;
   Hotspot whole{"whole step", 0, 0, 0, 0, {}, {}, {}, {}};
   const auto each = [steps](double all) { return all / static_cast<double>(steps); };
   for (const StepPhase phase : clock.phases()) {
     const PhaseTimes& times = clock.times(phase);
+    const Load load = phase_load(model, phase);
     Hotspot spot{name_of(phase),
                  each(times.seconds),
                  each(times.beside),
                  times.parallel.wall / times.seconds,
                  imbalance(times.parallel),
-                 phase_load(model, phase),
+                 {},
                  {},
                  times.counters,
                  {}};
@@ -119,14 +135,17 @@ std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, st
                  each(times.parallel.longest),
                  each(times.parallel.wall - busy / threads()),
                  each(static_cast<double>(times.parallel.calls)),
-                 spot.load.bytes};
-    spot.limit = limits.of(spot.load, model.scene.precision == "double", model.internal->instruction_set());
+                 load.bytes};
+    if (of_byte == 0) {
+      spot.load = load;
+      spot.limit = limits.of(load, model.scene.precision == "double", model.internal->instruction_set());
+    }
     whole.seconds += spot.seconds - spot.beside;
     whole.beside += spot.beside;
     whole.parallel_share += spot.parallel_share * spot.seconds;
-    whole.load.flops += spot.load.flops;
-    whole.load.bytes += spot.load.bytes;
-    whole.limit.seconds += spot.limit.seconds;
+    whole.load.flops += load.flops;
+    whole.load.bytes += load.bytes;
+    whole.limit.seconds += of_byte > 0 ? load.bytes * of_byte : spot.limit.seconds;
     whole.counters.cycles += spot.counters.cycles;
     whole.counters.instructions += spot.counters.instructions;
     whole.counters.cache_misses += spot.counters.cache_misses;
@@ -206,9 +225,11 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
   for (const Hotspot& s : spots) {
     Json json = {{"phase", s.name},
                  {"backend", backend()},
+                 {"device", device_name()},
                  {"threads", threads()},
                  {"elements", elements},
                  {"repetitions", measured.repetitions},
+                 {"processor_share", measured.processor_share},
                  {"spread", measured.spread},
                  {"seconds_per_step", s.seconds},
                  {"share", s.seconds / spots.back().seconds},
@@ -218,12 +239,14 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
                  {"serial_s", s.work.serial},
                  {"busy_s", s.work.busy},
                  {"longest_items_s", s.work.longest},
-                 {"parallel_calls", s.work.calls},
-                 {"bytes_per_step", s.load.bytes},
-                 {"flops_per_step", s.load.flops},
-                 {"gb_per_s", 1e-9 * s.load.bytes / s.seconds},
-                 {"gflops", 1e-9 * s.load.flops / s.seconds},
-                 {"fraction_of_limit", s.limit.seconds / s.seconds}};
+                 {"parallel_calls", s.work.calls}};
+    if (!chosen_device() || &s == &spots.back()) {
+      json["bytes_per_step"] = s.load.bytes;
+      json["flops_per_step"] = s.load.flops;
+      json["gb_per_s"] = 1e-9 * s.load.bytes / s.seconds;
+      json["gflops"] = 1e-9 * s.load.flops / s.seconds;
+      json["fraction_of_limit"] = s.limit.seconds / s.seconds;
+    }
     if (counted) {
       json["cycles"] = s.counters.cycles;
       json["instructions"] = s.counters.instructions;
@@ -283,7 +306,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   if (!options.cores.empty() && chosen_device())
     throw InputError("bench hotspots: --cores projects steps of the processor; leave out --device");
   const Progress progress(options.quiet);
-  const RollingScene scene(resolved, progress);
+  const RollingScene scene(resolved, progress, options.device);
   Simulation simulation = scene.start();
   const std::int64_t all = step_count(resolved.scene, scene.dt());
   const std::int64_t before = std::min(kWarmUpSteps, all / 2);
@@ -292,6 +315,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   while (simulation.steps() < before) simulation.step();
   std::deque<PhaseClock> clocks;
   DeviceSteps on_device;
+  const CoreWatch cores;
   while (clocks.size() < static_cast<std::size_t>(repetitions) && simulation.steps() + steps <= all) {
     PhaseClock& clock = clocks.emplace_back(
         counters.available() ? std::function<CounterValues()>([&] { return counters.read(); })
@@ -304,11 +328,16 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
     simulation.observe(nullptr);
     clock.stop();
   }
+  const double processor_share = cores.share();
   Limits limits(options.plan);
   std::vector<std::vector<Hotspot>> runs;
   runs.reserve(clocks.size());
-  for (const PhaseClock& clock : clocks) runs.push_back(hotspots_of(scene.model(), clock, steps, limits));
-  const Measurement measured = of_whole_steps(runs);
+  const double of_byte = on_device.any() ? byte_seconds(*chosen_device(), options.plan) : 0;
+  for (const PhaseClock& clock : clocks)
+    runs.push_back(hotspots_of(scene.model(), clock, steps, limits, of_byte));
+  limits.warn_of_busy_cores();
+  Measurement measured = of_whole_steps(runs);
+  measured.processor_share = processor_share;
   const std::vector<Hotspot>& spots = median_run(runs);
   const std::int64_t elements = scene.model().elements();
   const Projection projection(spots, options.cores);
@@ -325,13 +354,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
       1e-6 * static_cast<double>(elements) / spots.back().seconds, measured.repetitions,
       100 * measured.spread);
   fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
-  fmt::print(
-      "{}\n",
-      on_device.any()
-          ? "Work on a device overlaps: a phase holds what the processor does, and waits for, in it."
-          : "Beside: core-time beside the elements, whose time holds it. All other phases run one after the "
-            "other.");
-  if (on_device.any()) fmt::print("{}", on_device.text());
+  fmt::print("{}", closing_note(on_device));
   if (!options.cores.empty()) fmt::print("\n{}", projection.text(static_cast<double>(elements)));
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());
 }

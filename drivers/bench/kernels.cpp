@@ -171,6 +171,7 @@ void bench_kernels(const BenchKernelsOptions& options) {
     }
   }
   rows.finish();
+  limits.warn_of_busy_cores();
 }
 
 }  // namespace tread

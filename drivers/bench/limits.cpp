@@ -1,13 +1,17 @@
 #include "drivers/bench/limits.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "core/aligned.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/lanes/limit_loops.hpp"
+#include "drivers/process/core_watch.hpp"
+#include "drivers/process/standard_files.hpp"
 #include "kernels/blocks/internal_force.hpp"
 
 namespace tread {
@@ -68,22 +72,54 @@ Measurement Limits::triad(std::int64_t working_set) {
   const std::int64_t bytes = std::min(static_cast<std::int64_t>(rounded), beyond_caches());
   const char* const widest = InternalForce::instruction_sets().front();
   const auto [at, added] = known_.try_emplace({bytes, widest, threads(), std::string(backend())});
-  if (added) at->second = measure_triad(bytes, limit_loops(widest), plan_);
+  if (!added) return at->second;
+  at->second = measure_triad(bytes, limit_loops(widest), plan_);
+  constexpr std::int64_t kLongLoop = 16 << 20;  ///< beside it, the time in which a thread wakes is short [B]
+  if (bytes >= kLongLoop) note_share(at->second.processor_share);
   return at->second;
 }
 
 Measurement Limits::operation(bool in_double, std::string_view instruction_set) {
   const auto [at, added] = known_.try_emplace(
       {in_double ? -2 : -1, std::string(instruction_set), threads(), std::string(backend())});
-  if (added) at->second = measure_operation(in_double, limit_loops(instruction_set), plan_);
+  if (!added) return at->second;
+  at->second = measure_operation(in_double, limit_loops(instruction_set), plan_);
+  note_share(at->second.processor_share);
   return at->second;
 }
 
 Limit Limits::of(const Load& load, bool in_double, std::string_view instruction_set) {
   if (load.bytes <= 0 && load.flops <= 0) return {};
-  const double memory = load.bytes / kTriadTraffic * triad(load.working_set).seconds;
-  const double arithmetic = load.flops * operation(in_double, instruction_set).seconds;
+  const double memory = load.bytes / kTriadTraffic * fastest([&] { return triad(load.working_set); });
+  const double arithmetic = load.flops * fastest([&] { return operation(in_double, instruction_set); });
   return {std::max(memory, arithmetic), memory >= arithmetic};
+}
+
+void Limits::warn_of_busy_cores() const {
+  if (!busy_.empty())
+    print_error(fmt::format(
+        "tread: warning: {} while the limits were measured: these rates, limits and efficiencies are not the "
+        "machine's; measure again where nothing else runs\n",
+        busy_));
+}
+
+void Limits::note_share(double share) {
+  if (share >= least_share_) return;
+  least_share_ = share;
+  busy_ = busy_cores_text(share);
+}
+
+/// Seconds of the backend that is the fastest. One thread needs no backend.
+double Limits::fastest(const std::function<Measurement()>& of_backend) const {
+  if (threads() == 1) return of_backend().seconds;
+  const std::string_view chosen = backend();
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::string_view name : backends()) {
+    set_backend(name);
+    least = std::min(least, of_backend().seconds);
+  }
+  set_backend(chosen);
+  return least;
 }
 
 }  // namespace tread

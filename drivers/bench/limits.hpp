@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,31 +28,39 @@ struct Load {
   std::int64_t working_set = 0;  ///< bytes held
 };
 
-/// Limits of the machine for the threads and the backend set at the call. Each value is measured once. The
-/// limit is the fastest run: `seconds` is the time of that run.
+/// Limits of the machine for the threads set at the call. Each value is measured once. The limit is the
+/// fastest run: `seconds` is the time of that run.
 class Limits {
  public:
   /// Takes at least fifteen runs, because all other rows are judged by these.
   explicit Limits(const MeasurementPlan& plan) : plan_{std::max(15, plan.repetitions), plan.run_seconds} {}
 
-  /// Time of one STREAM triad, which moves kTriadBytes [s]: on three arrays beyond every cache, by the widest
-  /// instruction set.
+  /// By the backend set at the call: time of one STREAM triad, which moves kTriadBytes [s]: on three arrays
+  /// beyond every cache, by the widest instruction set.
   Measurement stream();
-  /// Time of one triad on arrays of `working_set` bytes in all, rounded up to a power of two, at most those
-  /// of stream() [s].
+  /// By the same: time of one triad on arrays of `working_set` bytes in all, rounded up to a power of two, at
+  /// most those of stream() [s].
   Measurement triad(std::int64_t working_set);
 
-  /// Time of one addition or multiplication when all threads do multiply-adds in registers [s].
+  /// By the same: time of one addition or multiplication when all threads do multiply-adds in registers [s].
   Measurement operation(bool in_double, std::string_view instruction_set);
 
-  /// The longer of the times that memory and arithmetic need.
+  /// The longer of the times that memory and arithmetic need, each by its fastest backend.
   Limit of(const Load& load, bool in_double, std::string_view instruction_set);
 
+  /// Warns on stderr where the loops of the limits, which have work for all threads, did not get the cores.
+  void warn_of_busy_cores() const;
+
  private:
+  void note_share(double share);
+  double fastest(const std::function<Measurement()>& of_backend) const;
+
   using Key = std::tuple<std::int64_t, std::string, int, std::string>;
 
   MeasurementPlan plan_;
   std::map<Key, Measurement> known_;  ///< measurements by bytes of a triad, or by precision if negative
+  double least_share_ = 1;            ///< Measurement::processor_share of long loops among these [-]
+  std::string busy_;                  ///< busy_cores_text() of it
 };
 
 /// Bytes of a triad by the convention of STREAM: two values read, one written [B].

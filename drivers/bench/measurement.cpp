@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/statistics.hpp"
+#include "drivers/process/core_watch.hpp"
 
 namespace tread {
 
@@ -40,14 +41,17 @@ Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
   const int calls = warm_up(timed, plan);
   std::vector<double> seconds;
   seconds.reserve(static_cast<std::size_t>(plan.repetitions));
+  const CoreWatch cores;
   for (int i = 0; i < plan.repetitions; ++i) seconds.push_back(time_calls(timed, calls) / calls);
-  return summarise(seconds);
+  Measurement measured = summarise(seconds);
+  measured.processor_share = cores.share();
+  return measured;
 }
 
 Measurement summarise(const std::vector<double>& seconds) {
   const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());
   const double middle = median(seconds);
-  return {middle, *fastest, (*slowest - *fastest) / middle, static_cast<int>(seconds.size())};
+  return {middle, *fastest, (*slowest - *fastest) / middle, static_cast<int>(seconds.size()), 0};
 }
 
 }  // namespace tread

@@ -7,10 +7,11 @@
 namespace tread {
 
 struct Measurement {
-  double seconds = 0;   ///< time of a call, median of the runs [s]
-  double fastest = 0;   ///< time of a call in the fastest run [s]
-  double spread = 0;    ///< slowest less fastest run, over the median [-]
-  int repetitions = 0;  ///< number of runs
+  double seconds = 0;          ///< time of a call, median of the runs [s]
+  double fastest = 0;          ///< time of a call in the fastest run [s]
+  double spread = 0;           ///< slowest less fastest run, over the median [-]
+  int repetitions = 0;         ///< number of runs
+  double processor_share = 0;  ///< processor time of the runs over wall clock and threads [-]
 };
 
 struct MeasurementPlan {
@@ -32,7 +33,7 @@ int warm_up(const TimedCall& timed, const MeasurementPlan& plan);
 /// Time of so many calls without their resets [s]. Without a reset the clock is read only twice.
 double time_calls(const TimedCall& timed, int calls);
 
-/// Median and spread of the seconds of single runs.
+/// Median and spread of the seconds of single runs; without their processor time.
 Measurement summarise(const std::vector<double>& seconds);
 
 }  // namespace tread

@@ -14,17 +14,18 @@ namespace tread {
 
 namespace {
 
-Model moving_model(const ResolvedScene& resolved) {
+Model moving_model(const ResolvedScene& resolved, const Progress& progress, const std::string& device) {
   if (!resolved.scene.motion)
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
+  settle_device(resolved.scene, device, progress);
   return scene_model(resolved.scene, resolved);
 }
 
 }  // namespace
 
-RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progress)
-    : model_(moving_model(resolved)) {
-  require_device_memory(model_);
+RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progress, const std::string& device)
+    : model_(moving_model(resolved, progress, device)) {
+  settle_device(model_, device, progress);
   const auto say = [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); };
   preload_ = preload_and_corrugate(resolved, model_, say);
   dt_ = model_.scene.motion->step_safety * step_limit(model_).stable_step;

@@ -1,6 +1,8 @@
 #pragma once
 // A scene brought to the first step of its motion.
 
+#include <string>
+
 #include "drivers/engine/model/model.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/start/preload.hpp"
@@ -12,8 +14,8 @@ namespace tread {
 class RollingScene {
  public:
   /// Makes mesh, preload (or finds it in the cache) and step. Throws InputError for a scene without a motion,
-  /// and as scene_model() and require_device_memory() do.
-  RollingScene(const ResolvedScene& resolved, const Progress& progress);
+  /// and as scene_model() and settle_device() do.
+  RollingScene(const ResolvedScene& resolved, const Progress& progress, const std::string& device = "");
 
   const Model& model() const { return model_; }
   double dt() const { return dt_; }

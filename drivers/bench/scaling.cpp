@@ -15,6 +15,7 @@
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/rolling_scene.hpp"
+#include "drivers/process/core_watch.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -58,14 +59,17 @@ StepTimes time_steps(const TimedCall& step, const MeasurementPlan& plan) {
   const int calls = warm_up(step, plan);
   std::vector<RunTimes> runs;
   std::vector<double> walls;
+  const CoreWatch cores;
   for (int i = 0; i < plan.repetitions; ++i) {
     runs.push_back(time_run(step, calls));
     walls.push_back(runs.back().wall);
   }
+  Measurement measured = summarise(walls);
+  measured.processor_share = cores.share();
   std::ranges::sort(runs, {}, &RunTimes::wall);
   const RunTimes& low = runs[(runs.size() - 1) / 2];
   const RunTimes& high = runs[runs.size() / 2];
-  return {summarise(walls), 0.5 * (low.parallel + high.parallel), 0.5 * (low.busy + high.busy)};
+  return {measured, 0.5 * (low.parallel + high.parallel), 0.5 * (low.busy + high.busy)};
 }
 
 struct ScalingRow {
@@ -161,7 +165,10 @@ class Scaling {
     }
   }
 
-  void print() const { fmt::print("{}", options_.json ? json() : plain_text(table())); }
+  void print() const {
+    fmt::print("{}", options_.json ? json() : plain_text(table()));
+    limits_.warn_of_busy_cores();
+  }
 
  private:
   Table table() const {
@@ -206,7 +213,8 @@ class Scaling {
                           {"lost_slower", r.lost_slower()},
                           {"triad_ratio", r.triad},
                           {"spread", r.step.measured.spread},
-                          {"repetitions", r.step.measured.repetitions}});
+                          {"repetitions", r.step.measured.repetitions},
+                          {"processor_share", r.step.measured.processor_share}});
     return lines;
   }
 

@@ -27,7 +27,7 @@ void add_export(CLI::App& app, const std::string& /*command_line*/) {
       "start in the scene's static state: places, stresses and velocities (default: undeformed)");
   command.add_option(
       "--overlap", options.overlap,
-      "place the wheelset deeper, until the reader's contact carries the load at t = 0, e.g. \"20 um\"");
+      "place the wheelset deeper, until OpenRadioss's contact carries the load at t = 0, e.g. \"20 um\"");
   command.add_flag("--quiet", options.quiet, "no progress of the preload on stderr");
   command.add_option("-o,--output", options.output, "file")->required();
 }

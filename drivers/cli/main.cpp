@@ -264,6 +264,7 @@ int main(int argc, char** argv) {
   return reported("", [&] {
     tread::give_back_large_arrays();
     tread::leave_openmp_place();
+    tread::state_commit();
     const std::shared_ptr<tread::Ranks> ranks = tread::launched_ranks();
     tread::choose_ranks(ranks);
     const int code = ranks ? run_on(*ranks, argc, argv) : run(argc, argv);

@@ -5,12 +5,12 @@
 
 namespace tread {
 
-std::string program_commit() {
-  return kCommit;
+void state_commit() {
+  state_program_commit(kCommit);
 }
 
 std::string program_name() {
-  const std::string commit = program_commit();
+  const std::string& commit = program_commit();
   return std::string("tread ") + program_version() + (commit.empty() ? "" : ", commit " + commit);
 }
 

@@ -5,8 +5,8 @@
 
 namespace tread {
 
-/// Commit of the sources, "24b0c2e13a77", with "-dirty" where they differ from it; empty outside of a clone.
-std::string program_commit();
+/// States the commit of the sources, program_commit().
+void state_commit();
 
 /// "tread 0.1.0, commit 24b0c2e13a77"; without commit outside of a clone.
 std::string program_name();

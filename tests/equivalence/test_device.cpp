@@ -10,15 +10,22 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/device/device_movers.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/rolling.hpp"
 #include "drivers/run/run_model.hpp"
+#include "drivers/run/run_scene.hpp"
+#include "drivers/run/run_session.hpp"
 #include "io/report/plain_text.hpp"
+#include "kernels/device/contact_layout.hpp"
 #include "tests/device_cases.hpp"
+#include "tests/program_test.hpp"
 #include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -48,6 +55,11 @@ std::vector<double> forces_of(Simulation& simulation, std::int64_t steps) {
   return forces;
 }
 
+std::vector<double> measured(const Simulation& simulation) {
+  const std::span<const double> values = simulation.measurements().values();
+  return {values.begin(), values.end()};
+}
+
 /// Runs of `scene` in double on the processor and in these precisions on devices.
 template <class SceneOf>
 void expect_same_steps(const SceneOf& scene, std::int64_t steps,
@@ -68,6 +80,7 @@ void expect_same_steps(const SceneOf& scene, std::int64_t steps,
     const auto shuffled = roll(at.start(device(12345, {64, 7, 5}, kFew)), steps);
     set_threads(1);
     EXPECT_EQ(history_row(at.model(), on_device->sample()), history_row(at.model(), shuffled->sample()));
+    EXPECT_EQ(measured(*on_device), measured(*shuffled));
     EXPECT_EQ(differences(state, bytes(shuffled->state())), "");
     if (precision != "double") continue;
     const auto cut_otherwise = roll(at.start(device(8, {64, 40, 5})), steps);
@@ -207,6 +220,23 @@ TEST(Device, AStepCopiesFewValues) {
   EXPECT_EQ(after.launches - before.launches, 21);
 }
 
+/// Probes, forces of fastenings and the stress under the patch read the device's motion.
+TEST(Device, MeasurementsOnSleepersOverASoftSupport) {
+  const auto scene = tyre(samples::on_sleepers(
+      {"motion.start=rigid", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
+       "fastenings.damping=20 kN s/m", "support.soft.fastening=2", "support.soft.stiffness=0.5",
+       "probe.head.x=20 mm", "probe.head.quantity=all", "probe.box.body=axle_box",
+       "output.fastening_forces=true", "output.stress_depth=20 mm"}));
+  expect_same_steps(scene, 140, {"mixed"});
+  Case at(scene("mixed"));
+  const std::vector<double> expected = measured(*roll(at.start(nullptr), 140));
+  const std::vector<double> found = measured(*roll(at.start(device(0)), 140));
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_GT(found.size(), 10U);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-3 * std::abs(expected[i])) << i;
+}
+
 /// The host moves the struck nodes of the running surface, so that contact runs there too.
 TEST(Device, HammerBesideAWheel) {
   const auto scene = tyre({"hammer.position=40 mm", "hammer.force=5 kN", "hammer.duration=0.05 ms"});
@@ -248,23 +278,81 @@ TEST(Device, ARunGoesOnElsewhere) {
   EXPECT_LT(between.velocity, 1e-9);
 }
 
+TEST(Device, IsLostAndTheRunGoesOnFromItsCheckpoint) {
+  const samples::TemporaryFolder folder;
+  const ResolvedScene resolved =
+      resolve_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml",
+                    {"scene.element_size=12 mm", "motion.duration=0.1 ms", "motion.traction.ramp=0.05 ms",
+                     "solution_zone.start=1 mm", "solution_zone.length=5 mm"});
+  RunOptions options;
+  options.output = folder.path / "whole";
+  options.threads.number = 1;
+  options.device = "emulated";
+  options.quiet = true;
+  run_scene(resolved, options);
+  options.output = folder.path / "lost";
+  {
+    RunSession session(options);
+    session.order = {resolved.source, resolved.overrides, {}, resolved_toml(resolved), "", {}};
+    session.resolved = resolved;
+    RunResults results;
+    Model model = run_model(resolved, nullptr, results);
+    results.preload = solve_preload(model, steady_motion(model), [](const std::string& /*text*/) {});
+    find_step(model, results);
+    constexpr std::int64_t kCopies = 300;  // more than a beginning takes
+    choose_device(emulated_device({.copies = kCopies}));
+    Rolling rolling(session, model, results);
+    rolling.begin();
+    const std::string text = samples::refusal<ResourceError>([&] { rolling.to_the_end(); });
+    samples::expect_part(text, "the device emulated is lost");
+    samples::expect_part(text, resume_text(options.output, "--device emulated") + " goes on from there");
+  }
+  choose_device("cpu");
+  resume_run(options);
+  samples::expect_same_run(folder.path / "whole", options.output);
+  choose_device("cpu");
+}
+
 TEST(Device, ASceneThatNeedsMoreMemoryIsRefused) {
+  const Progress quiet(true);
   for (const std::string precision : {"double", "mixed"}) {
     const Model model(tyre({})(precision));
     const std::int64_t needed = device_need(model).bytes;
     choose_device(emulated_device({.free_bytes = needed}));
-    EXPECT_NO_THROW(require_device_memory(model));
+    EXPECT_NO_THROW(settle_device(model, "emulated", quiet));
     choose_device(emulated_device({.free_bytes = needed - 1}));
-    const std::string text = samples::refusal<ResourceError>([&] { require_device_memory(model); });
+    const std::string text =
+        samples::refusal<ResourceError>([&] { settle_device(model, "emulated", quiet); });
     samples::expect_part(text, "emulated has " + bytes_text(needed - 1) + " free");
     EXPECT_EQ(text.find("scene.precision") != std::string::npos, precision == "double") << text;
+    settle_device(model, "auto", quiet);
+    EXPECT_EQ(chosen_device(), nullptr);
   }
-  choose_device("cpu");
+}
+
+TEST(Device, TakesTheMemoryThatIsStated) {
+  for (const Scene& scene : {tyre({})("double"), file("smooth", kHalfWheelset)("mixed")}) {
+    const Case of(scene);
+    const std::shared_ptr<Device> counted = emulated_device();
+    const std::int64_t before = counted->free_bytes();
+    const auto simulation = of.start(counted);
+    const auto taken = static_cast<double>(before - counted->free_bytes());
+    const auto stated = static_cast<double>(device_need(of.model()).bytes);
+    EXPECT_GE(stated, taken);
+    EXPECT_LT(stated, 1.1 * taken);
+  }
+}
+
+TEST(Device, OnlyCodeThatKnowsClustersHasTeamsOfThem) {
+  EXPECT_EQ(teams_of_code(800), 1);
+  EXPECT_EQ(teams_of_code(890), 1);
+  EXPECT_EQ(teams_of_code(900), 8);
+  EXPECT_EQ(teams_of_code(1200), 8);
 }
 
 TEST(Device, NamesThatAreNoDeviceAreRefused) {
   for (const char* name : {"cuda", "gpu:", "gpu:-1", "gpu:1x", "emulate"})
-    EXPECT_THROW(choose_device(name), InputError) << name;
+    EXPECT_THROW(missing_device(name), InputError) << name;
   if (gpus().empty()) {
     EXPECT_THROW(choose_device("gpu"), ResourceError);
     EXPECT_THROW(choose_device("gpu:3"), ResourceError);

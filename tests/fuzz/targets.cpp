@@ -12,10 +12,12 @@
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
+#include "core/mesh/web_outline.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/roughness/roughness_levels.hpp"
 #include "drivers/studies/roughness/roughness_profile.hpp"
 #include "io/files/checkpoint_folder.hpp"
+#include "io/files/hdf5_file.hpp"
 #include "io/files/history_reader.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/sealed_file.hpp"
@@ -24,6 +26,7 @@
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/support_file.hpp"
+#include "io/scene/surface_file.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
@@ -106,6 +109,13 @@ void read_table(const std::string& bytes) {
     } catch (const Error&) {
     }
   std::vector<Problem> problems;
+  try {
+    const TwoColumns points = parse_two_columns(bytes, "web.txt", kWebOutline, problems);
+    if (problems.empty())
+      require(WebOutline(points.first, points.second).least_thickness() > 0, "faces of a web that meet");
+  } catch (const Error&) {
+  }
+  problems.clear();
   const GridColumns grid = parse_grid(bytes, "map.csv", problems);
   require(!problems.empty() || grid.z.size() == grid.x.size() * grid.y.size(), "points of a map");
   for (const SupportSpec& support : parse_supports(bytes, "supports.txt", problems))
@@ -135,6 +145,15 @@ void read_roughness(const std::string& bytes) {
     close_pits(profile);
     for (const std::optional<double>& level : roughness_levels(profile, 1.0).level)
       require(!level || *level < std::numeric_limits<double>::infinity(), "a level of roughness");
+  } catch (const Error&) {
+  }
+}
+
+void read_map(const std::string& bytes) {
+  try {
+    std::vector<Problem> problems;
+    const GridColumns grid = parse_grid(read_map_text(written("map.h5", bytes)), "map.h5", problems);
+    require(!problems.empty() || grid.z.size() == grid.x.size() * grid.y.size(), "points of a map");
   } catch (const Error&) {
   }
 }
@@ -229,6 +248,7 @@ std::vector<std::string> scene_seeds() {
 
 std::vector<std::string> table_seeds() {
   return {"# x [m]  d [mm]\n0 0\n0.01 0.02\n0.02, 0\n", "1;2\n3;4\n5;-6e-1 # end\n",
+          "# y [mm]  r [mm]\n-40 145\n-30 165\n-30 340\n-40 365\n35 365\n25 340\n25 165\n35 145\n",
           "# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n",
           "# fastening [-]  shift [mm]  stiffness [-]  damping [-]  bed [-]  holds [-]\n3 5 1 1 0.5 1\n1 0 0 "
           "0 1 0\n"};
@@ -259,6 +279,23 @@ std::vector<std::string> roughness_seeds() {
   std::string text = "# x [m]  r [um]\n";
   for (int i = 0; i < 60; ++i) text += fmt::format("{:g} {}\n", 1e-3 * i, (i * i) % 7);
   return {text};
+}
+
+std::vector<std::string> map_seeds() {
+  std::vector<std::string> seeds;
+  for (const std::uint64_t rows : {1, 2, 3}) {
+    const fs::path path = workplace() / "seed.h5";
+    {
+      Hdf5File file = Hdf5File::create(path);
+      const std::vector<double> places = {0, 1, 2};
+      file.write<double>("x", places);
+      file.write<double>("y", std::span(places).first(rows));
+      file.write<double>("depth", std::vector<double>(3 * rows, 0.5), {rows, 3});
+      for (const char* name : {"x", "y", "depth"}) file.write_attribute(name, "unit", "mm");
+    }
+    seeds.push_back(content_of(path));
+  }
+  return seeds;
 }
 
 std::vector<std::string> checkpoint_seeds() {
@@ -301,6 +338,7 @@ const std::vector<Target>& targets() {
                                           {"table", read_table, table_seeds},
                                           {"profile", read_profile, profile_seeds},
                                           {"roughness", read_roughness, roughness_seeds},
+                                          {"map", read_map, map_seeds},
                                           {"checkpoint", read_checkpoint, checkpoint_seeds},
                                           {"run_folder", read_run_folder, run_folder_seeds},
                                           {"mesh_deck", read_mesh_deck, mesh_deck_seeds},

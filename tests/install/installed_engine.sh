@@ -14,7 +14,8 @@ trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/tread" >"$work/log" || { cat "$work/log" >&2; exit 1; }
 [[ -x $work/tread/bin/tread ]] || { echo "the program is not installed" >&2; exit 1; }
 for file in man/man1/tread.1 man/man1/tread-run.1 bash-completion/completions/tread \
-  zsh/vendor-completions/_tread fish/vendor_completions.d/tread.fish doc/tread/copyright tread/scenes/tyre.toml tread/python/tread_results.py; do
+  zsh/vendor-completions/_tread fish/vendor_completions.d/tread.fish doc/tread/copyright \
+  doc/tread/docs/can-and-cannot.md tread/scenes/tyre.toml tread/python/tread_results.py; do
   [[ -s $work/tread/share/$file ]] || { echo "share/$file is not installed" >&2; exit 1; }
 done
 (cd "$work" && TREAD_SHARE=$work/tread/share/tread tread/bin/tread check -t 1 bar-wave >log) ||

@@ -233,6 +233,9 @@ class Studies(Test):
             stated = point.summary["vertical_force_N"]["max"]
             self.assertAlmostEqual(sweep.results["vertical_force_max"][i] / stated, 1, delta=5.1e-9)
             self.assertEqual(sweep.results["state_hash"][i], point.summary["state_hash"])
+            self.assertEqual(sweep.results["warnings"][i], len(point.summary["warnings"]))
+            for truth in ("passed", "traction_steady"):
+                self.assertEqual(sweep.results[truth][i], point.summary[truth])
 
     def test_points_that_are_not_done_have_nan(self):
         place = self.copy("study")

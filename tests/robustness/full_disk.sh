@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# full_disk.sh TREAD SCENE [--set key=value ...]: runs the scene on file systems that are too small for it, from 20 kB
-# on, and in a folder that becomes read-only meanwhile; gives them room, resumes, and compares the files. Every kind
-# of file is the one that finds the disk full at some size. Exit status 77: this user may not mount a tmpfs.
+# full_disk.sh TREAD SCENE [--set key=value ...]: runs the scene on file systems that are too small for it from the
+# start, or become so in the preload; gives them room, resumes, and compares the files. Every kind of file is the one
+# that finds the disk full at some size. Exit status 77: this user may not mount a tmpfs.
 set -euo pipefail
 tread=$1 scene=$2
 if [[ ${FULL_DISK_INSIDE:-} != yes ]]; then
@@ -25,14 +25,31 @@ expect_same() {
   for file in run.h5 patch.h5 surface.h5; do h5diff "$work/whole/$file" "$work/disk/run/$file"; done
 }
 
+# kB from the start on: the order does not fit, the run does not.
+for case in "20:No space left on device" "100:the disk of $work/disk/run has .* left"; do
+  mount -t tmpfs -o size=${case%%:*}k tmpfs "$work/disk"
+  code=0
+  "$tread" run "$scene" -t 1 --quiet -o "$work/disk/run" "$@" 2>"$work/errors" || code=$?
+  echo "${case%%:*} from the start: exit $code $(cut -c1-160 "$work/errors")"
+  ((code == 4))
+  grep -q "${case#*:}" "$work/errors"
+  umount "$work/disk"
+done
+
 # kB, and the time between checkpoints: often, and only one at the start.
-for case in 20:1h 100:1h 1000:1h 1150:1h 1300:1h 1500:1h 1700:1h 1900:1h 2100:1h 2300:1h 2600:1h 2900:1h \
+for case in 1000:1h 1150:1h 1300:1h 1500:1h 1700:1h 1900:1h 2100:1h 2300:1h 2600:1h 2900:1h \
   1500:300ms 2200:300ms 3000:300ms; do
   size=${case%:*}
-  mount -t tmpfs -o size=${size}k tmpfs "$work/disk"
-  code=0
+  mount -t tmpfs -o size=$((10 * largest + 20000))k tmpfs "$work/disk"
   "$tread" run "$scene" -t 1 --quiet -o "$work/disk/run" "$@" --set "output.checkpoint_interval=${case#*:}" \
-    2>"$work/errors" || code=$?
+    2>"$work/errors" &
+  run=$!
+  until grep -qs '"preload"' "$work/disk/run/status.json"; do sleep 0.01; done
+  kill -STOP $run
+  mount -o remount,size=${size}k "$work/disk"
+  kill -CONT $run
+  code=0
+  wait $run || code=$?
   echo "$case: exit $code $(cut -c1-160 "$work/errors")"
   if ((code != 0)); then
     ((code == 4))

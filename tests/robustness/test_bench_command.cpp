@@ -64,6 +64,7 @@ TEST_F(Bench, KernelsStateEveryKey) {
     EXPECT_GT(number(row, "elements"), 0) << name;
     EXPECT_GT(number(row, "element_steps_per_s"), 0) << name;
     EXPECT_GE(number(row, "spread"), 0) << name;
+    EXPECT_GT(number(row, "processor_share"), 0) << name;
     EXPECT_EQ(row.contains("counted_calls"), text(row, "kernel") != "multiply_add") << name;
     if (text(row, "kernel") == "empty") continue;
     EXPECT_GT(number(row, "gb_per_s") + number(row, "gflops"), 0) << name;
@@ -153,6 +154,7 @@ TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
     const double lost = number(row, "lost_serial") + number(row, "lost_waiting") + number(row, "lost_slower");
     EXPECT_NEAR(number(row, "efficiency") + lost, 1, 1e-9);
     EXPECT_GT(number(row, "triad_ratio"), 0);
+    EXPECT_GT(number(row, "processor_share"), 0);
     const bool weak = text(row, "kind") == "weak";
     const double alone = number(rows[weak ? 3 : 0], "seconds_per_step");
     const double ideal = alone / (weak ? 1 : number(row, "threads"));
@@ -176,6 +178,7 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
   for (const JsonRecord& row : records()) {
     phases.insert(text(row, "phase"));
     EXPECT_EQ(number(row, "repetitions"), 2);
+    EXPECT_GT(number(row, "processor_share"), 0);
     EXPECT_GT(number(row, "seconds_per_step"), 0) << text(row, "phase");
     if (text(row, "phase") != "whole step") shares += number(row, "share");
     if (text(row, "phase") != "internal force") continue;
@@ -187,6 +190,20 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
   EXPECT_EQ(phases.count("internal force"), 1U);
   EXPECT_EQ(phases.count("contact tractions"), 1U);
   EXPECT_EQ(phases.count("whole step"), 1U);
+}
+
+TEST_F(Bench, HotspotsOfADeviceAreNotJudgedByTheProcessor) {
+  ASSERT_EQ(call(fmt::format("hotspots {} -t 2 --quiet --steps 20 --device emulated --set "
+                             "\"scene.element_size=12 mm\" --set \"motion.duration=0.05 ms\" {}",
+                             samples::scene_word("tyre.toml"), kSmoke)),
+            0);
+  const std::vector<JsonRecord> rows = records();
+  for (const JsonRecord& row : rows) {
+    if (row.count("phase") == 0) continue;  // copies and kernels
+    EXPECT_EQ(text(row, "device"), "emulated");
+    EXPECT_EQ(row.count("fraction_of_limit"), text(row, "phase") == "whole step" ? 1U : 0U);
+  }
+  EXPECT_GT(number(rows.at(rows.size() - 2), "fraction_of_limit"), 0);
 }
 
 TEST_F(Bench, RanksHoldEachElementOnceAndWhatIsSentIsReceived) {

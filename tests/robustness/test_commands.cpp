@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ TEST_F(Commands, CheckStatesStepsAndFields) {
                            "\"name\": \"displacement\""})
     EXPECT_TRUE(has(outcome.out, part)) << part;
   EXPECT_FALSE(has(outcome.out, "contact"));
+  EXPECT_FALSE(has(outcome.out, "wheel_load_N"));
 }
 
 TEST_F(Commands, CheckAnswersFirstAndListsPhasesOnRequest) {
@@ -72,6 +74,42 @@ TEST_F(Commands, CheckAnswersFirstAndListsPhasesOnRequest) {
   EXPECT_TRUE(has(brief.out, "Memory")) << brief.out;
   EXPECT_FALSE(has(brief.out, "Phase")) << brief.out;
   EXPECT_TRUE(has(call("check -t 1 --verbose " + scene("bar-wave.toml")).out, "Phase"));
+}
+
+TEST_F(Commands, CheckStatesTheWheelLoad) {
+  const Outcome outcome = call("check -t 1 --set \"scene.element_size=11 mm\" " + scene("smooth.toml"));
+  EXPECT_TRUE(has(outcome.out, "kN on the rail: 8000 kg sprung, 340 kg unsprung, ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "kg of the wheel at 9.81 m/s2; axle load ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "web 66.3 mm, sized by wheel.mass; wheels have about 18 to 40 mm"))
+      << outcome.out;
+}
+
+TEST_F(Commands, CheckTellsALeaningHeadAndWhereAShapeLies) {
+  ASSERT_EQ(call("profile 60E1 -o " + (folder_ / "head.txt").string()).code, 0);
+  std::istringstream points(content("head.txt"));
+  std::ofstream leaning(folder_ / "leaning.txt");
+  for (std::string line; std::getline(points, line);) {
+    double y = 0, z = 0;
+    if (std::istringstream(line) >> y >> z)
+      leaning << fmt::format("{:.6f} {:.6f}\n", y - 0.025 * z, z + 0.025 * y);
+  }
+  leaning.close();
+  const std::string file = (folder_ / "leaning.txt").string();
+  const std::string hint = "the head leans by 1:40 to the track's middle";
+  EXPECT_TRUE(has(call("profile --rail --section 60E1 " + file).out, hint));
+  std::ofstream(folder_ / "map.csv")
+      << "# x [mm], y [mm], d [mm]\n0,0,0\n9,0,0\n20,0,0\n0,4,0\n9,4,.1\n20,4,0\n";
+  const std::string check = fmt::format(
+      "check --json -t 1 {} --set scene.based_on=ballasted-60e1 --set \"scene.element_size=11 mm\" --set "
+      "rail.profile={} --set surface.a.kind=map --set surface.a.file={} --set \"surface.a.at=1 m\" --set "
+      "\"surface.a.centre=-2 mm\"",
+      scene("smooth.toml"), file, (folder_ / "map.csv").string());
+  const std::string told = call(check).out;
+  for (const std::string& part :
+       {hint, std::string("\"deepest_x_m\": 1.009"), std::string("\"deepest_y_m\": 0.002"),
+        std::string("\"web_sized_by_mass\": true")})
+    EXPECT_TRUE(has(told, part)) << told;
+  EXPECT_FALSE(has(call(check + " --set rail.inclination=0").out, hint));
 }
 
 TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
@@ -390,7 +428,8 @@ TEST_F(Commands, TheReportTellsOfATorqueThatRisesInAGuidedBore) {
                              folder_.string(), scene("tyre.toml")))
                 .code,
             0);
-  EXPECT_TRUE(has(content("report.html"), "The torque still changes"));
+  EXPECT_TRUE(has(content("report.html"), "They are not steady"));
+  EXPECT_TRUE(has(content("report.html"), "the torque of motion.traction still changes"));
 }
 
 /// The shipped scenes with a rolling wheel, on a mesh that is fast rather than good.

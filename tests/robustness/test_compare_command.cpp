@@ -46,6 +46,7 @@ TEST_F(CompareCommand, SetsACurveBesideARun) {
   write_curve();
   ASSERT_EQ(call(fmt::format("compare {} {} --json", folder().string(), curve().string())), 0) << errors();
   const json found = json::parse(output());
+  EXPECT_EQ(found["run_done"], true);
   EXPECT_NEAR(found["rms_difference_N"].get<double>(), 2000, 0.01);
   EXPECT_NEAR(found["curve_N"]["mean"].get<double>() - found["run_N"]["mean"].get<double>(), 2000, 0.01);
   EXPECT_EQ(json::parse(content_of(folder() / "compare.json")), found);
@@ -83,6 +84,24 @@ TEST_F(CompareCommand, WritesElsewhereIfTold) {
       << errors();
   EXPECT_TRUE(has(output(), "averaged over 7 mm"));
   EXPECT_TRUE(fs::exists(other / "compare.html"));
+}
+
+/// An order to go on, as a killed run leaves it.
+TEST_F(CompareCommand, SaysThatARunIsNotDone) {
+  write_curve();
+  const fs::path killed = root_ / "killed";
+  fs::copy(folder(), killed, fs::copy_options::recursive);
+  fs::create_directory(killed / "checkpoint");
+  std::ofstream(killed / "checkpoint/order.h5") << "order";
+  const std::string command = fmt::format("compare {} {}", killed.string(), curve().string());
+  ASSERT_EQ(call(command), 0) << errors();
+  EXPECT_TRUE(has(output(), " samples of a run that is not done\n")) << output();
+  EXPECT_EQ(json::parse(content_of(killed / "compare.json"))["run_done"], false);
+  EXPECT_EQ(call(command + " --from 5m"), 2);
+  EXPECT_TRUE(has(errors(), "; the run is not done: `tread resume ")) << errors();
+  fs::remove(killed / "histories.csv");
+  EXPECT_EQ(call(command), 2);
+  EXPECT_TRUE(has(errors(), "it has not rolled yet; the run is not done: `tread resume ")) << errors();
 }
 
 TEST_F(CompareCommand, NamesWhatIsWrong) {

@@ -123,6 +123,9 @@ TEST_F(Dial, RefusesBeforeAnythingRuns) {
   EXPECT_TRUE(has(errors(), "--against nothing: not a point")) << errors();
   EXPECT_EQ(call(tyres("--axis scene.elements=3")), 2);
   EXPECT_TRUE(has(errors(), "scene.elements")) << errors();
+  EXPECT_EQ(call(tyres("--axis \"load.wheel_load=40 kN\"")), 2);
+  EXPECT_TRUE(has(errors(), "load.wheel_load = 40 kN makes another passage")) << errors();
+  EXPECT_TRUE(has(errors(), "tread sweep")) << errors();
   EXPECT_EQ(call(tyres(two + "--cost hours")), 2);
   // A wheel without a rail moves, but feels no contact.
   std::string wheel = content_of(fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml");
@@ -132,8 +135,9 @@ TEST_F(Dial, RefusesBeforeAnythingRuns) {
     EXPECT_EQ(call(fmt::format("dial {} --list", alone)), 2);
     EXPECT_TRUE(has(errors(), "nothing rolls in it")) << errors();
   }
-  for (const char* wrong : {"--error 0", "--error two", "--error 2% --quantity F_Q",
-                            "--error 2% --cost hours", "--error 2% --dial nowhere"})
+  for (const char* wrong :
+       {"--error 0", "--error two", "--error 2% --quantity F_Q", "--error 2% --cost hours",
+        "--error 2% --cost minutes", "--error 2% --dial nowhere"})
     EXPECT_EQ(call(fmt::format("check {} -t 1 {}", scene("tyre.toml"), wrong)), 2) << wrong;
   EXPECT_FALSE(fs::exists(runs_ / "element_size=12mm"));
 }

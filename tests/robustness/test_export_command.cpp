@@ -69,6 +69,8 @@ TEST_F(ExportCommand, WrongChoicesAreRefused) {
     EXPECT_EQ(export_tyre("no.k", fmt::format("--overlap=\"{}\"", wrong)), 2);
     EXPECT_TRUE(has(errors(), "lies between 0 and 1 mm")) << errors();
   }
+  EXPECT_EQ(export_tyre("no.k", "--preload --for ls-dyna --overlap \"5 um\""), 2);
+  EXPECT_TRUE(has(errors(), "state --for openradioss")) << errors();
   EXPECT_FALSE(fs::exists(root_ / "no.k"));
   EXPECT_EQ(export_tyre("/dev/stdout", "--preload"), 2);
   EXPECT_TRUE(has(errors(), "name a file, or state --for ls-dyna")) << errors();

@@ -68,6 +68,23 @@ TEST_F(Fork, OfTheSameSceneIsTheSameRunOnOtherThreads) {
   EXPECT_TRUE(has(content_of(folder_ / "report.html"), "fork of"));
 }
 
+/// A fork on a device, with frames, that is stopped and resumed there.
+TEST_F(Fork, OnADeviceIsTheSameRun) {
+  const std::string there =
+      "--device emulated --set output.frames=3 --set \"motion.duration=0.6 ms\" --set \"forks.at=0.3 ms\"";
+  ASSERT_EQ(call(run("smooth.toml", root_ / "device", there)), 0) << errors();
+  EXPECT_EQ(call(from("smooth.toml", "device", there + " --set stop.steps=600")), 4);
+  const std::string way_on =
+      fmt::format("`tread resume {} --set stop.steps=0 --device emulated` goes on", folder_.string());
+  EXPECT_TRUE(has(errors(), way_on)) << errors();
+  fs::copy(folder_, root_ / "elsewhere", fs::copy_options::recursive);
+  EXPECT_EQ(call(fmt::format("resume {} -t 1", (root_ / "elsewhere").string())), 4);
+  EXPECT_TRUE(has(errors(), "(--device emulated goes on there)")) << errors();
+  EXPECT_EQ(call(fmt::format("resume {} -t 1 --device emulated --set stop.steps=0", folder_.string())), 0)
+      << errors();
+  expect_same_run(root_ / "device", folder_);
+}
+
 TEST_F(Fork, FilesThatGoOnCarryTheNewScene) {
   ASSERT_EQ(call(from("sine.toml", "smooth", "--set scene.title=other")), 0) << errors();
   for (const char* name : {"run.h5", "patch.h5", "surface.h5"})

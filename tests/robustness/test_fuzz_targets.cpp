@@ -139,8 +139,8 @@ TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzTargets,
-                         testing::Values("scene", "table", "profile", "roughness", "checkpoint", "run_folder",
-                                         "mesh_deck", "mesh_gmsh", "mesh_abaqus"),
+                         testing::Values("scene", "table", "profile", "roughness", "map", "checkpoint",
+                                         "run_folder", "mesh_deck", "mesh_gmsh", "mesh_abaqus"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace

@@ -24,6 +24,8 @@ class ResultsCommand : public ProgramTest {
   static void SetUpTestSuite() {
     make_root();
     ASSERT_EQ(call(run("run")), 0) << errors();
+    // Warnings are no progress.
+    EXPECT_TRUE(has(errors(), "[warning] ") && !has(errors(), "[preload] ")) << errors();
   }
   static std::string run(const std::string& name, const std::string& more = "") {
     return fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set output.frames=2 {}",
@@ -48,13 +50,16 @@ class ResultsCommand : public ProgramTest {
 
 TEST_F(ResultsCommand, EveryHdf5FileAndTheSummarySayWhereTheyComeFrom) {
   const json summary = json::parse(content_of(folder("run") / "summary.json"));
+  ASSERT_EQ(call("version --json"), 0) << errors();
+  const std::string commit = json::parse(output())["commit"];
+  EXPECT_EQ(summary.value("commit", ""), commit);
   int files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder("run"))) {
     const std::string ending = entry.path().extension();
     if (ending != ".h5" && ending != ".hdf") continue;
     ++files;
     const Hdf5Attributes attributes = Hdf5File::open_to_read(entry.path()).attributes("/");
-    EXPECT_EQ(attributes.size(), 9U) << entry.path();
+    EXPECT_EQ(attributes.size(), commit.empty() ? 9U : 10U) << entry.path();
     for (const auto& [name, value] : attributes)
       std::visit([&, key = name](const auto& stated) { EXPECT_EQ(summary.at(key), json(stated)) << key; },
                  value);

@@ -166,6 +166,31 @@ TEST_F(Resume, ResultsThatCannotBeWrittenNameTheReasonAndTheWayOn) {
   EXPECT_EQ(call(resume()), 0) << errors();
 }
 
+TEST_F(Resume, TheEndOfRollingHasACheckpoint) {
+  std::ofstream(root_ / "bar.toml") << kBar;
+  fs::create_directories(folder_ / "report.html");
+  EXPECT_EQ(call(fmt::format("run {}/bar.toml -t 1 -o {} {} --set \"output.checkpoint_interval=1 ms\"",
+                             root_.string(), folder_.string(), kFrames)),
+            4);
+  std::vector<std::string> refused;
+  const auto last = CheckpointFolder(folder_ / "checkpoint").newest(refused);
+  ASSERT_TRUE(last);
+  const double end = sealed_value<double>(last->content, "results/dt") * static_cast<double>(last->steps);
+  EXPECT_GE(end, resolve_scene(root_ / "bar.toml").scene.motion->duration * (1 - 1e-9));
+}
+
+TEST_F(Resume, ADiskThatIsTooSmallIsNamedBeforeThePreload) {
+  std::ofstream(root_ / "bar.toml") << kBar;
+  const std::string large =
+      "--set \"motion.duration=100 s\" --set output.frames=1000000 --set output.frame_cells=elements";
+  EXPECT_EQ(
+      call(fmt::format("run {}/bar.toml -t 1 -o {} --set \"scene.element_size=1 mm\" --set stop.steps=1 {}",
+                       root_.string(), folder_.string(), large)),
+      4);
+  EXPECT_TRUE(has(errors(), "the run needs about ") && has(errors(), "state less output.frames")) << errors();
+  EXPECT_FALSE(has(errors(), "[preload]")) << errors();
+}
+
 TEST_F(Resume, FailuresOfLibrariesShowInTheStatus) {
   std::ofstream(root_ / "bar.toml") << kBar;
   RunOptions options = quiet_options();
@@ -192,7 +217,9 @@ TEST_F(Resume, ARequestThatAnEndedRunHasNotReadIsWithdrawn) {
     run.reset();
     const bool stop = std::string(action) == "stop";
     EXPECT_EQ(wait_for(control), stop ? 0 : 2) << action;
-    EXPECT_TRUE(has(stop ? output() : errors(), "ended before it read the request")) << action << errors();
+    EXPECT_TRUE(stop ? has(output(), "ended before it read the request")
+                     : has(errors(), fmt::format("ended before it had written a {}", action)))
+        << action << errors();
     EXPECT_FALSE(is_pending(folder_)) << action;
   }
 }
@@ -270,24 +297,35 @@ TEST_F(Resume, ControlledFromOutside) {
   EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 2);
   EXPECT_TRUE(has(errors(), "no process works on")) << errors();
   EXPECT_EQ(call("ctl " + (root_ / "absent").string() + " status"), 2);
+  EXPECT_EQ(call("ctl " + root_.string() + " status"), 2);
+  EXPECT_TRUE(has(errors(), "holds no run: start one with `tread run SCENE -o")) << errors();
   // What could be gone on with is not thrown away by mistake.
   EXPECT_EQ(call(run(folder_)), 2);
   EXPECT_TRUE(has(errors(), "--overwrite")) << errors();
   expect_finishes_as_if_never_stopped();
 }
 
-TEST_F(Resume, AFrameOnRequestStays) {
+TEST_F(Resume, WhatWasRequestedIsThereOnceTheRunHasAnswered) {
+  const auto request = [&](pid_t process, const std::string& action) {
+    ::kill(process, SIGSTOP);  // it would end meanwhile
+    const pid_t control = start("ctl " + folder_.string() + " " + action);
+    EXPECT_TRUE(wait_until([&] { return is_pending(folder_); }));
+    ::kill(process, SIGCONT);
+    EXPECT_EQ(wait_for(control), 0) << errors();
+  };
   const pid_t process = start_rolling();
-  EXPECT_EQ(call("ctl " + folder_.string() + " frame"), 0) << errors();
-  ASSERT_TRUE(wait_until([&] {
-    const auto names = fs::exists(folder_ / "frames") ? frames_in(folder_) : std::vector<std::string>{};
-    return std::any_of(names.begin(), names.end(), [](const std::string& name) {
-      return name.ends_with(".hdf") && !fs::exists(root_ / "whole/frames" / name);
-    });
+  request(process, "frame");
+  const auto written = frames_in(folder_);
+  EXPECT_TRUE(std::any_of(written.begin(), written.end(), [](const std::string& name) {
+    return name.ends_with(".hdf") && !fs::exists(root_ / "whole/frames" / name);
   }));
   ::kill(process, SIGKILL);
   wait_for(process);
-  EXPECT_EQ(call(resume()), 0) << errors();
+  const pid_t resumed = start(resume());
+  EXPECT_TRUE(wait_until([&] { return is_taken(folder_); }));
+  request(resumed, "checkpoint");
+  EXPECT_EQ(CheckpointFolder(folder_ / "checkpoint").states().size(), 2U);
+  EXPECT_EQ(wait_for(resumed), 0) << errors();
   const auto names = frames_in(folder_);
   EXPECT_EQ(names.size(), frames_in(root_ / "whole").size() + 1);
   const std::string series = content_of(folder_ / "frames.hdf.series");
@@ -388,6 +426,29 @@ TEST_F(Resume, ACheckpointOfAnotherFormatIsRefusedByName) {
   checkpoints.write(found->steps, content);
   EXPECT_EQ(call(resume("--set stop.steps=60")), 4) << errors();
   EXPECT_TRUE(has(errors(), "[resume] from")) << errors();
+  EXPECT_TRUE(has(errors(), "version 9.8.7 wrote it")) << errors();
+}
+
+TEST_F(Resume, ACheckpointOfAnotherBuildIsNamed) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=40 --set motion.duration=\"0.1 ms\"")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "[step] looks for the largest stable one\n[step] dt")) << errors();
+  const CheckpointFolder checkpoints(folder_ / "checkpoint");
+  std::vector<std::string> refused;
+  const std::optional<CheckpointFolder::Found> found = checkpoints.newest(refused);
+  ASSERT_TRUE(found);
+  SealedContent content = found->content;
+  EXPECT_EQ(call(resume("--set stop.steps=40")), 4) << errors();
+  EXPECT_FALSE(has(errors(), "the last bits may differ")) << errors();
+  content["made/program"] = std::vector<std::int64_t>{7};
+  content["made/commit"] = std::string("0123456789ab");
+  checkpoints.write(found->steps, content);
+  EXPECT_EQ(call(resume("--set stop.steps=40")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "another build of the program wrote it, of commit 0123456789ab")) << errors();
+  content.erase("made/program");  // of an earlier program
+  content.erase("made/commit");
+  checkpoints.write(found->steps, content);
+  EXPECT_EQ(call(resume("--set stop.steps=40")), 4) << errors();
+  EXPECT_FALSE(has(errors(), "the last bits may differ")) << errors();
 }
 
 TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
@@ -490,6 +551,9 @@ TEST(RunSessions, ASignalBeforeTheFirstStepNamesTheWayOn) {
   options.overwrite = true;  // what it throws away may still be there
   EXPECT_TRUE(has(signal_early(), "the same command starts again")) << content_of(said);
   EXPECT_TRUE(has(signal_early(true), sentence + " goes on from the last checkpoint")) << content_of(said);
+  options.device = "gpu:1";
+  const std::string there = resume_text(options.output, "--device gpu:1");
+  EXPECT_TRUE(has(signal_early(true), there + " goes on from the last checkpoint")) << content_of(said);
 }
 
 TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {

@@ -49,10 +49,10 @@ TEST(SceneErrors, Names) {
       {"[rail]\n  friction = 0.4", "x.toml:4:3: rail.friction: unknown key (did you mean contact.friction?)"},
       {"[ballast]\nstiffness = \"20 MN/m\"",
        "x.toml:3:2: ballast: unknown table: [sleepers] holds sleepers on ballast, with stiffness and damping "
-       "of the bed; leave out [slab] (docs/can-and-cannot.md)"},
+       "of the bed; leave out [slab] (see can-and-cannot.md)"},
       {"[wheel]\nflat = \"40 mm\"",
        "x.toml:4:1: wheel.flat: unknown key: a table [surface.NAME] with kind = \"flat\", \"polygon\" or "
-       "\"profile\" makes the wheel out of round (docs/can-and-cannot.md)"},
+       "\"profile\" makes the wheel out of round (see can-and-cannot.md)"},
       {"[motion]\ntractoin = { mu = 0.1 }",
        "x.toml:4:1: motion.tractoin: unknown table (did you mean motion.traction?)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
@@ -83,6 +83,25 @@ TEST(SceneErrors, Names) {
       "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
       "highspeed-slab-2014-calibrated, highspeed-slab-2014-thin-web, ballasted-cn60, ballasted-60e1), got "
       "the string");
+}
+
+/// Every part of a path below the known tables may be a word with an answer.
+TEST(SceneErrors, WordsOfOtherPrograms) {
+  for (const auto& [typed, answer] :
+       {std::pair{"noise.present=true", "unknown key: there is no noise"},
+        {"temperature.initial=20", "unknown key: there is no temperature"},
+        {"motion.gauge.width=\"1 m\"", "unknown key: the model is half a track"},
+        {"support.a.fastenin=1", "unknown key (did you mean support.a.fastening?)"},
+        {"load.axle_load=\"200 kN\"", "unknown key: vehicle.sprung_mass sets it: half the axle load"},
+        {"motion.velocity=\"3 m/s\"", "unknown key: motion.speed is"},
+        {"contact.mu=0.3", "unknown key: contact.friction is"},
+        {"sleepers.pitch=\"0.6 m\"", "unknown key: fastenings.spacing is"},
+        {"rail.profile=UIC60", "\"UIC60\" is unknown: UIC 60 is rail.profile = \"60E1\""},
+        {"slab.stiffness=1", "unknown key (known: pitch, gap, first_gap,"},
+        {"vehicle.mass=\"1 t\"", "unknown key (did you mean vehicle.sprung_mass?)"},
+        {"fastenings.support_stiffness=1", "unknown key (did you mean fastenings.stiffness?)"},
+        {"track.stiffness=1", "unknown key (did you mean fastenings.stiffness?)"}})
+    expect_part(error_of(kBase, {typed}), answer);
 }
 
 TEST(SceneErrors, TablesWithoutTheirNames) {
@@ -318,11 +337,14 @@ TEST(SceneErrors, FastenersBesideTheSleeper) {
 
 TEST(SceneErrors, ComponentsThatLackOthers) {
   expect_messages({
-      {"[load]\nwheel_load = \"80 kN\"",
-       "x.toml:3:2: load: a wheel carries a vehicle or a load; leave one out, for example with "
-       "vehicle.present = "
-       "false"},
-      {"[contact]\npresent = false", "x.toml: wheel: wheel and rail need [contact]"},
+      {"[load]\nwheel_load = \"98.1 kN\"",
+       "x.toml:3:2: load: a wheel carries a vehicle or a load; vehicle.sprung_mass = \"9660 kg\" presses as "
+       "much as the load: state it in place of [load], or leave one out: vehicle.present = false takes its "
+       "masses and suspension away"},
+      {"[load]\nwheel_load = \"1 kN\"",
+       "x.toml:3:2: load: a wheel carries a vehicle or a load; leave one out: vehicle.present = false takes "
+       "its masses and suspension away"},
+      {"[contact]\npresent = false", "x.toml: wheel: wheel and rail need [contact]; add it"},
       {"[rail]\npresent = false\n[fastenings]\npresent = false\n[slab]\npresent = false\n[contact]\npresent "
        "= "
        "false",
@@ -341,7 +363,7 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
        "mortar, "
        "slab"},
       {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
-       "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
+       "x.toml:3:2: pulse: a pulse needs [rail] and no wheel; state [rail] alone, or leave [pulse] out"},
       {"[hammer]\nposition = \"20 m\"\nforce = \"1 kN\"\nduration = \"1 ms\"",
        "x.toml:4:1: hammer.position: the struck point, x = 20 m, is not on the rail, -6.1 m to 9.1 m; "
        "move it, or lengthen the rail"},
@@ -677,7 +699,7 @@ TEST_F(Files, NamedInAScene) {
   write("depth.txt", "# x [m]  d [mm]\n0 0\n0.7 0.1\n");
   EXPECT_EQ(scene_error(scene), place +
                                     "the corrugation, x = 2.4 m to 3.1 m, is not inside the solution zone, "
-                                    "2.4 m to 3 m");
+                                    "2.4 m to 3 m; move one of them, or widen the zone");
   expect_part(scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n")),
               "wheel.toml:4:1: wheel.profile: cannot read");
 }
@@ -834,6 +856,15 @@ TEST_F(Files, ProfilesWhoseAxesAreMistaken) {
   expect_part(wheel("-70 -10\n-56 -27\n-40 -10\n0 0\n65 3\n"), "turn the sign of z");
   expect_part(wheel("-65 -3\n0 0\n40 10\n56 27\n70 10\n"), place + "the flange is at y = 56.0 mm");
   expect_part(wheel("-65 3\n0 0\n40 -10\n56 -27\n70 -10\n"), "turn both signs");
+  expect_part(wheel("0 10\n14 27\n30 10\n70 0\n130 -3\n"),
+              place +
+                  "y = 0.0 ... 130.0 mm counts from the flange's back, not from the nominal rolling circle; "
+                  "wheel.profile_shift = \"-70 mm\" corrects it");
+  expect_part(wheel("-70e-3 10e-3\n-56e-3 27e-3\n0 0\n65e-3 -3e-3\n"),
+              place + "the points are 0.135 mm wide");
+  expect_part(
+      wheel("-70 -10\n-56 -27\n-47 -20\n"),
+      place + "the points are 23 mm wide; a whole wheel profile has 90 to 200 mm: is the file whole?");
   expect_part(wheel("-70 10\n-56 27\n-57 28\n0 0\n65 -3\n"),
               (folder_ / "wheel.txt").string() + ":4: the first column must grow");
   write("wheel.prw", "point.begin\n1 2\n1 x\npoint.end\n");
@@ -878,6 +909,7 @@ TEST_F(Files, TablesOfTwoColumns) {
     const fs::path path = write("table.txt", c.text);
     expect_part(table_error(path, corrugation), path.string() + c.message);
   }
+  expect_part(table_error(write("table.txt", "0 0\n1 1\n"), kWebOutline), "such as \"# y [mm]  r [mm]\"");
   EXPECT_EQ(table_error(write("table.txt", "# x [m] d [mm]\n# x [m] d [mm]\n0 0\n# [a] [b]\n1 1\n"), {}), "");
   expect_part(table_error(write("table.txt", std::string("0 0\n\0", 5)), {}),
               "it is a binary file, not text");

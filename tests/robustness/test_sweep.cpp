@@ -101,6 +101,7 @@ TEST_F(Sweep, RunsEveryPointOnce) {
   const std::string csv = content_of(runs_ / "sweep.csv");
   EXPECT_TRUE(has(csv, "point,state,pulse.velocity [m/s],pulse.length [m],")) << csv;
   EXPECT_TRUE(has(csv, "\"velocity=2m_s,length=0.1m\",done,2,0.1,")) << csv;
+  EXPECT_TRUE(has(csv, ",warnings [-],state_hash\n")) << csv;
   const std::string report = content_of(runs_ / "report.html");
   EXPECT_TRUE(has(report, "velocity=2m_s,length=0.1m"));
   for (const std::string& origin :
@@ -141,6 +142,13 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
   EXPECT_TRUE(has(errors(), "lower --jobs")) << errors();
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--jobs 2 --device gpu:0"), 2);
   EXPECT_TRUE(has(errors(), "a card takes one run at a time, and there is one")) << errors();
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--device gpu:1000"), 4);
+  EXPECT_TRUE(has(errors(), "--device gpu:1000: ")) << errors();
+  for (const std::string& elsewhere :
+       {std::string("--list"), "--slurm " + (program_.folder / "job.sh").string()}) {
+    EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), elsewhere + " --device cuda"), 2);
+    EXPECT_TRUE(has(errors(), "--device cuda: it is cpu, gpu")) << errors();
+  }
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"pulse.velocity=2 m/s\""), 2);
   EXPECT_TRUE(has(errors(), "differ in pulse.velocity")) << errors();
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"scene.title=\xFF\""), 2);
@@ -375,6 +383,13 @@ TEST_F(Sweep, ListsCostWithoutRunning) {
   EXPECT_EQ(text_in(list, "points.1.state"), "waiting");
   EXPECT_GT(number_in(list, "points.1.steps"), 1);
   EXPECT_GT(number_in(list, "disk_bytes"), 1);
+  // The elements of one mesh are timed once.
+  const fs::path intervals = bars("[grid]\noutput.history_interval = [\"1 us\", \"2 us\"]\n");
+  EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json", intervals.string())), 0) << errors();
+  const JsonRecord alike = parse_json(program_.out(), "list");
+  EXPECT_EQ(number_in(alike, "points.0.seconds"), number_in(alike, "points.1.seconds"));
+  EXPECT_EQ(program_.call(fmt::format("sweep {} --list --device auto", file.string())), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "times are the processor's")) << program_.out();
 }
 
 TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {

@@ -103,6 +103,9 @@ TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
         "multibody --quiet --filter " + scene("smooth.toml")})
     EXPECT_EQ(call(wrong).code, 2) << wrong;
   EXPECT_EQ(call(good + " --step \"20 us\"").code, 3);
+  const Outcome stiff = call(good + " --modes 2");
+  EXPECT_EQ(stiff.code, 0);
+  EXPECT_TRUE(has(stiff.out, "\n[warning] the shortest wave")) << stiff.out;
   std::ofstream(folder_ / "depth.txt") << "# x [m]  d [mm]\n0 0\n0.1 0.02\n0.5 0\n";
   const fs::path measured = folder_ / "measured.toml";
   std::ofstream(measured) << "[scene]\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,7 @@ TEST(BarLimits, ABarShorterThanAnElementHasOne) {
 
 TEST(BarLimits, AStiffnessThatIsNotFiniteIsNamed) {
   Scene scene = bar();
-  scene.materials.at("steel").youngs_modulus = std::numeric_limits<double>::infinity();
+  scene.materials.at("steel").youngs_modulus = 1e308;  // products exceed what a number holds
   const Model model(scene);
   const std::string text = samples::refusal<NumericalError>([&] { step_limit(model); });
   EXPECT_TRUE(text.starts_with("time step: the highest frequency of the assembled bodies is ")) << text;

@@ -3,15 +3,24 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
+#include <thread>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/bench/counted.hpp"
+#include "drivers/bench/limits.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/work.hpp"
+#include "drivers/process/core_watch.hpp"
 #include "io/text/json.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "kernels/element/element_body.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -82,6 +91,33 @@ TEST(Measurement, TakesTheMedianAndTheSpread) {
   EXPECT_EQ(calls, 4);
   EXPECT_EQ(resets, 4);
   EXPECT_EQ(measured.repetitions, 3);
+}
+
+TEST(CoreWatch, SeesThreadsThatWait) {
+  set_threads(2);
+  const CoreWatch cores;
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_LT(cores.share(), 0.6);
+  EXPECT_EQ(busy_cores_text(0.7), "");
+  EXPECT_EQ(busy_cores_text(0.4), "2 threads work 40 % of the time: other programs use the cores");
+  set_threads(1);
+  EXPECT_EQ(busy_cores_text(0.4), "the thread works 40 % of the time: other programs use the cores");
+}
+
+TEST(Limits, AreThoseOfTheFasterBackend) {
+  set_threads(2);
+  const std::string_view chosen = backend(), widest = InternalForce::instruction_sets().front();
+  Limits limits({1, 0});
+  const double limit = limits.of({1, 0, 0}, true, widest).seconds;
+  EXPECT_EQ(backend(), chosen);
+  std::vector<double> seconds;
+  for (const std::string_view name : backends()) {
+    set_backend(name);
+    seconds.push_back(limits.operation(true, widest).seconds);
+  }
+  EXPECT_EQ(limit, std::ranges::min(seconds));
+  set_backend(chosen);
+  set_threads(1);
 }
 
 class JsonLines : public testing::Test {

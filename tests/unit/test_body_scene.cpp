@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/mesh/hex_mesh.hpp"
 #include "drivers/bench/rolling_scene.hpp"
-#include "drivers/results/scene_model.hpp"
+#include "drivers/run/run_model.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/import/import_study.hpp"
 #include "drivers/studies/multibody/multibody_model.hpp"
@@ -189,6 +189,12 @@ TEST_F(BodyScene, WrongUnitsAreRefused) {
   EXPECT_EQ(refusal(table),
             "x.toml:4:7: body.web.unit: is missing; [body.web] needs a value: Unit of the file's lengths; it "
             "is never guessed");
+  std::string deck = samples::files()[0].text;
+  const std::string title = "*TITLE\nbar\n";
+  write("bar.k", deck.replace(deck.find(title), title.size(), "*CONTROL_UNITS\nmm\n"));
+  EXPECT_EQ(refusal(rail("web"), {"body.web.file=bar.k", "body.web.unit=m"}),
+            "bar.k: the file states a unit of 0.001 m (*CONTROL_UNITS), body.web.unit one of 1 m; state the "
+            "file's");
 }
 
 TEST_F(BodyScene, MaterialsAreThoseOfTheScene) {
@@ -282,10 +288,12 @@ TEST_F(BodyScene, KeysOfTheDiscThatIsReplacedAreNamed) {
 TEST_F(BodyScene, IsRefusedWhereItCannotBeUsed) {
   const ResolvedScene scene = resolved(disc("web"));
   choose_device("emulated");
-  const std::string on_device = samples::refusal<InputError>([&] { scene_model(scene.scene, scene); });
-  const std::string timed =
-      samples::refusal<InputError>([&] { const RollingScene rolling(scene, Progress(true)); });
-  choose_device("cpu");
+  const Progress quiet(true);
+  const std::string on_device =
+      samples::refusal<InputError>([&] { settle_device(scene.scene, "emulated", quiet); });
+  const std::string timed = samples::refusal<InputError>([&] { const RollingScene rolling(scene, quiet); });
+  settle_device(scene.scene, "auto", quiet);
+  EXPECT_EQ(chosen_device(), nullptr);
   EXPECT_EQ(
       on_device,
       "body.web: the steps of a body from a file are those of one process; leave out --device, or state "

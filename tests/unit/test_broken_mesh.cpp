@@ -108,7 +108,7 @@ std::vector<Broken> broken_decks() {
        "*TITLE\nbar\n",
        "*CONTROL_UNITS\nm         s\n",
        0,
-       {"*CONTROL_UNITS", "0.001 m"}},
+       {"*CONTROL_UNITS", "--unit one of 0.001 m; state the file's"}},
   };
 }
 

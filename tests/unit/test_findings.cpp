@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "drivers/verify/verify_case.hpp"
 
 namespace tread {
@@ -20,6 +21,22 @@ TEST(SlipZone, NarrowerThanAnElementIsNotResolved) {
   const Finding finding = judged_by_slip_zone({"work", "J", 2.0, 1.0}, 0.2, 4e-3, 2e-3);
   EXPECT_FALSE(finding.bound);
   EXPECT_EQ(finding.quantity, "work, not resolved: 0.50 elements slip");
+}
+
+TEST(Floor, JudgesWhereAShareOfTheReferenceIsLess) {
+  const Finding tiny = judged_above_floor({"amplitude", "%", 0.22, 0.1}, 0.15, 0.3);
+  EXPECT_NEAR(tiny.error(), 0.12, 1e-12);
+  EXPECT_TRUE(tiny.pass());
+  EXPECT_FALSE(judged_above_floor({"amplitude", "%", 0.42, 0.1}, 0.15, 0.3).pass());
+  const Finding large = judged_above_floor({"amplitude", "%", 3.71, 4.64}, 0.15, 0.3);
+  EXPECT_NEAR(large.error(), -0.2, 1e-3);
+  EXPECT_FALSE(large.pass());
+}
+
+TEST(Refusal, CountsWithItsPartsAlone) {
+  const auto act = [] { throw InputError("mu cannot be reached"); };
+  EXPECT_TRUE(refused(act, {"mu", "cannot be reached"}));
+  EXPECT_FALSE(refused(act, {"times as stiff"}));
 }
 
 TEST(BesideRecord, JudgesTheDistanceFromTheRecordedDifference) {

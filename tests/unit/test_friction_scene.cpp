@@ -51,6 +51,7 @@ TEST(FrictionScene, EveryNameHasItsOwnLawAndARange) {
   Scene scene = samples::tyre_scene({"scene.element_size=14 mm"});
   scene.contact->friction_x = {0};
   scene.contact->friction_at_x = {0.3};
+  scene.contact->friction_memory = 1e-4;
   const std::vector<std::string> names = find_key("contact.friction_law")->allowed;
   std::set<std::size_t> laws;
   for (const std::string& name : names) {

@@ -48,6 +48,18 @@ TEST(Interruption, ASecondRequestEndsAtOnce) {
       testing::ExitedWithCode(kResumable), "late");
 }
 
+// Grid Engine sends both before it kills; the system repeats SIGXCPU every second.
+TEST(Interruption, LimitsOfBatchSystemsAskToStop) {
+  for (const int signal : {SIGUSR2, SIGXCPU}) {
+    Interruption interruption("early", "late");
+    interruption.defer();
+    ::raise(signal);
+    EXPECT_STREQ(Interruption::stop_wanted(), signal == SIGXCPU ? "SIGXCPU" : "SIGUSR2");
+    std::this_thread::sleep_for(std::chrono::milliseconds(signal == SIGXCPU ? 600 : 0));
+    ::raise(signal);
+  }
+}
+
 ProcessEnd end_of(const ChildProcess& child) {
   ProcessEnd end{-1, -1};
   while (!child.ended(end)) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -5,18 +5,22 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/ranks.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/report/scene_check.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "io/text/json.hpp"
 #include "tests/bar_scene.hpp"
 #include "tests/refusal.hpp"
 #include "tests/tyre_scene.hpp"
@@ -143,7 +147,7 @@ TEST(Inventory, ListsThePhasesThatASimulationEntersInTheirOrder) {
                            "scene.precision=mixed"})};
   std::set<std::string> met;
   for (const Scene& scene : scenes) {
-    const Model model(scene);
+    const Model model(scene, 0.0);
     expect_consistent(model);
     const std::vector<std::string> entered = entered_phases(model);
     EXPECT_EQ(entered, listed_phases(model)) << scene.title;
@@ -296,6 +300,22 @@ TEST(Memory, ARunNeedsMoreThanTheLeast) {
   const std::int64_t least = least_bytes({model.elements(), model.nodes()});
   EXPECT_LT(least, peak_bytes(model, 0));
   EXPECT_GT(least, peak_bytes(model, 0) / 8);
+}
+
+TEST(Memory, CheckWarnsOfAMachineThatIsTooSmall) {
+  const Scene scene = small_track();
+  const Model model(scene);
+  Estimate estimate;
+  const std::size_t of_mesh = check_warnings(model, estimate).size();
+  EXPECT_EQ(number_in(parse_json(check_json(model, estimate).dump(), "check"), "wheel_load_N"),
+            model.wheel_load());
+  estimate.memory = machine_memory() + 1;
+  estimate.disk.frames = std::int64_t{1} << 60;
+  const std::vector<std::string> warnings = check_warnings(model, estimate);
+  ASSERT_EQ(warnings.size(), of_mesh + 2);
+  EXPECT_TRUE(warnings[of_mesh].starts_with("a run needs about ")) << warnings[of_mesh];
+  EXPECT_NE(warnings[of_mesh].find("of memory, this machine has"), std::string::npos) << warnings[of_mesh];
+  EXPECT_NE(warnings.back().find("of disk, this folder's has"), std::string::npos) << warnings.back();
 }
 
 /// Ranks of one machine.

@@ -258,6 +258,7 @@ TEST(KeywordDeck, StatesTheHourglassStiffnessForTheReaderThatNeedsIt) {
   const Model model(bar());
   EXPECT_TRUE(exported(model).deck.hourglass.empty());
   const ReadDeck deck = exported(model, {DeckReader::ls_dyna, 0}).deck;
+  EXPECT_TRUE(deck.accuracy.empty());
   ASSERT_EQ(deck.hourglass.size(), 1U);
   EXPECT_EQ(deck.hourglass.at(1)[1], "6");
   for (const std::size_t coefficient : {4U, 5U}) {  // of bulk viscosity: 0 would select the reader's own
@@ -306,6 +307,11 @@ TEST(KeywordDeck, RefusesWhatItWouldFalsify) {
   EXPECT_NE(message(still).find("motion.duration"), std::string::npos);
   // Laws that only this program has.
   Model creeping(tyre());
+  const auto overlapping = [](const Model& model, DeckReader reader) {
+    return samples::refusal<InputError>([&] { exported(model, {reader, 0, 20e-6}); });
+  };
+  EXPECT_NE(overlapping(Model(bar()), DeckReader::openradioss).find("no wheel on a rail"), std::string::npos);
+  EXPECT_NE(overlapping(creeping, DeckReader::ls_dyna).find("state --for openradioss"), std::string::npos);
   creeping.mesh.blocks.front().materials.front().law = "creep";
   EXPECT_NE(message_of(creeping).find("material.steel.law = \"creep\": no card is written"),
             std::string::npos);

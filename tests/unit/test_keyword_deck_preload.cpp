@@ -233,7 +233,13 @@ TEST(PreloadedDeck, OpenRadiossGetsWhatNoKeywordHolds) {
   EXPECT_TRUE(deck.deck.stresses.empty());
   EXPECT_TRUE(deck.deck.velocities.empty());
   const RadiossCards& cards = deck.summary.radioss;
-  const ReadDeck keywords = exported(at.model, at.options(DeckReader::ls_dyna)).deck;
+  const auto [keywords, summary] = exported(at.model, at.options(DeckReader::ls_dyna));
+  EXPECT_EQ(std::ranges::count(summary.differences,
+                               "Contact at t = 0: without force. LS-DYNA moves overlapping nodes to the "
+                               "surface; F_N builds up while the deck runs."),
+            1);
+  EXPECT_EQ(keywords.accuracy.at(0), "1");  // OSU
+  EXPECT_TRUE(deck.deck.accuracy.empty());
   EXPECT_EQ(cards.ties.size() + cards.contacts.size(), keywords.contacts.size());
   for (const RadiossTie& tie : cards.ties) {
     EXPECT_EQ(deck.deck.node_sets.count(tie.nodes), 1U);

@@ -164,6 +164,17 @@ TEST(ProfileFiles, RailInEveryFormatIsTheSame) {
   }
 }
 
+TEST(ProfileFiles, HeadersTellWhatIsNotApplied) {
+  const std::string header = "MPTypeNo=299\nTilt=2.86\nBaseTilt=0\nRail=Right\n\n";
+  const auto reading = [&](bool mirrored) {
+    return reading_of(understood(header + rows(rail()), "r.ban", {.mirrored = mirrored}));
+  };
+  EXPECT_TRUE(reading(false).ends_with(
+      "Tilt = 2.86 of the header not applied, a right rail may need rail.profile_mirrored = true"))
+      << reading(false);
+  EXPECT_TRUE(reading(true).ends_with("Tilt = 2.86 of the header not applied")) << reading(true);
+}
+
 TEST(ProfileFiles, DuplicatesSpikesFoldsAndSidesAreRemoved) {
   const Points exact = rail();
   Points rough = exact;

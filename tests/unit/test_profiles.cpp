@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <random>
 #include <string>
@@ -209,6 +210,35 @@ TEST(RailWithHead, SuggestsTheShiftInPlaceOfTheStatedOne) {
                        "its own middle is y = 5.0 mm, which rail.profile_shift = \"-3.0 mm\" corrects");
 }
 
+TEST(HeadLean, TellsAHeadMeasuredInTheTrack) {
+  const auto head = [](double slope, double middle) {
+    auto [y, z] = sampled_head(cn60(), {0, 0});
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double across = y[i];
+      y[i] = across - slope * z[i] + middle;
+      z[i] += slope * across;
+    }
+    return std::pair{y, z};
+  };
+  const auto lean = [&](double slope) {
+    const auto [y, z] = head(slope, 0);
+    return head_lean(curve_through(y, z, "head"), 0);
+  };
+  EXPECT_NEAR(lean(1.0 / 40), 1.0 / 40, 1e-3);
+  EXPECT_NEAR(lean(-1.0 / 20), -1.0 / 20, 1e-3);
+  EXPECT_EQ(lean(0), 0);
+  EXPECT_EQ(lean_hint(0), "");
+  samples::expect_part(lean_hint(-0.05),
+                       "1:20 to the field side: if it is a right rail, state rail.profile_m");
+  const auto beside = [&] {
+    const auto [y, z] = head(1.0 / 40, 7 * mm);
+    rail_with_head(y, z, cn60());
+  };
+  samples::expect_part(samples::refusal<InputError>(beside),
+                       "corrects; the head leans by 1:42 to the track's middle: if it was measured in the "
+                       "track, state rail.inclination = 0");
+}
+
 TEST(Crowned, IsTheCircleItSays) {
   const PlaneCurve curve = crowned(60 * mm, 0.3).surface;
   for (double y = -30 * mm; y <= 30 * mm; y += mm)
@@ -232,6 +262,14 @@ TEST(PointScatter, IsThatOfTheNoise) {
     EXPECT_NEAR(point_scatter(y, z).value(), deviation, 0.15 * deviation + 1e-12);
   }
   EXPECT_FALSE(point_scatter({1, 2, 3, 4}, {1, 2, 3, 4}));
+  // Exact points so far apart that the arcs' own third differences are not small.
+  const auto [y, z] = sampled_head(cn60(), {0, 0});
+  std::vector<double> coarse_y, coarse_z;
+  for (std::size_t i = 0; i < y.size(); i += 7) {
+    coarse_y.push_back(y[i]);
+    coarse_z.push_back(z[i]);
+  }
+  EXPECT_LT(point_scatter(coarse_y, coarse_z).value(), kRoughProfile);
 }
 
 }  // namespace

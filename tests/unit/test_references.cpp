@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "drivers/report/report_references.hpp"
 #include "io/files/share_folder.hpp"
+#include "io/scene/scene_library.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/refusal.hpp"
 #include "tests/temporary_folder.hpp"
@@ -127,7 +128,11 @@ TEST_F(ShareFolder, HoldsTheReferencesOfTheLibrary) {
   EXPECT_EQ(count(scene("corrugation-d.toml")), 8U);
   EXPECT_EQ(count(scene("corrugation-d.toml", {"corrugation.depth=0.1 mm"})), 5U);
   EXPECT_EQ(count(scene("corrugation-d.toml", {"motion.speed=200 km/h"})), 1U);
-  EXPECT_EQ(count(scene("corrugation-d.toml", {"scene.based_on=highspeed-slab-2014-calibrated"})), 8U);
+  for (const LibraryEntry& entry : scene_library()) {
+    if (!entry.name.starts_with("highspeed-slab-2014")) continue;
+    EXPECT_EQ(count(scene("corrugation-d.toml", {fmt::format("scene.based_on={}", entry.name)})), 8U)
+        << entry.name;
+  }
   EXPECT_EQ(count(scene("corrugation-d.toml", {"fastenings.damping=150 kN s/m"})), 2U);
   EXPECT_EQ(count(scene("bar-wave.toml")), 0U);
   EXPECT_EQ(count(scene("tyre.toml")), 1U);

@@ -292,7 +292,7 @@ TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
   };
   EXPECT_EQ(problem({}), "");
   EXPECT_NE(problem({"sleepers.width=0.7 m"}).find("neighbouring sleepers overlap"), std::string::npos);
-  EXPECT_NE(problem({"sleepers.width=0.1 m"}).find("the pad is longer"), std::string::npos);
+  EXPECT_NE(problem({"sleepers.width=0.1 m"}).find("is longer than the sleeper is wide"), std::string::npos);
   EXPECT_NE(problem({"sleepers.offset=2 m"}).find("the pad does not lie on the sleeper"), std::string::npos);
 }
 

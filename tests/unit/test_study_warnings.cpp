@@ -71,6 +71,18 @@ TEST(StudyTrends, AColourAGroupAndAStrokeAResult) {
   }
 }
 
+TEST(StudyResults, SayWhetherTheyAreSteadyAndWhole) {
+  const FinishedRun run = run_with("a", R"({"steps": 1, "passed": false, "traction_steady": true})");
+  const Table table = result_table({run});
+  const auto shown = [&](const char* title) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      if (table.columns[i].title == title) return table.rows.front()[i];
+    return std::string();
+  };
+  EXPECT_EQ(shown("Passed"), "no");
+  EXPECT_EQ(shown("Steady"), "yes");
+}
+
 /// Its forces are those over the smooth rail before the corrugation.
 TEST(StudyResults, ARunThatHasNotReachedItsCorrugationHasNone) {
   const samples::TemporaryFolder folder;

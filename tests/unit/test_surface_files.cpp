@@ -268,5 +268,32 @@ TEST(MapFile, StatesTheUnitOfEachDataset) {
   EXPECT_EQ(read_map_text(path), "# x [mm]  y [cm]  d [um]\n0 0 5\n1 0 6\n");
 }
 
+/// A file of two kilobytes may state any size.
+TEST(MapFile, ItsStatedSizesAreNotBelieved) {
+  const samples::TemporaryFolder folder;
+  const fs::path path = folder.path / "map.h5";
+  for (const std::vector<hsize_t>& size : {std::vector<hsize_t>{40000, 100000}, {3, hsize_t{1} << 62}}) {
+    Hdf5File::create(path).write<double>("/x", std::vector<double>{0, 1});
+    Hdf5File::open_to_extend(path).write<double>("/y", std::vector<double>{0});
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(2, size.data(), nullptr);
+    const hid_t chunked = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(chunked, 2, std::vector<hsize_t>{1, 1000}.data());
+    const hid_t data = H5Dcreate2(file, "depth", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, chunked, H5P_DEFAULT);
+    H5Dclose(data);
+    H5Pclose(chunked);
+    H5Sclose(space);
+    H5Fclose(file);
+    try {
+      read_map_text(path);
+      ADD_FAILURE() << size[0];
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(),
+                path.string() +
+                    ": dataset 'depth' has more than 10000000 values, a map at most; state fewer places");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tread
