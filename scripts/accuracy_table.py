@@ -60,7 +60,7 @@ def percent(error: str) -> str:
         return f"{stated.quantize(decimal.Decimal('0.1'), decimal.ROUND_HALF_UP):+} %"
     mantissa, _, exponent = error.replace("−", "-").replace("×10", "e").partition("e")
     power = exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) or "0"
-    return f"{float(mantissa) * 10 ** int(power):+.4f}"
+    return format(decimal.Decimal(mantissa).scaleb(int(power)), "+f")
 
 
 def comparison(rows: list[Row]) -> str:

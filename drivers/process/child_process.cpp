@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "drivers/process/interruption.hpp"
 
 namespace tread {
 
@@ -50,7 +51,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 /// blocked.
 [[noreturn]] void become(char* const* arguments, bool launched, const char* log, pid_t parent,
                          const sigset_t& mask) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  for (const StopSignal& signal : kStopSignals) ::signal(signal.number, SIG_DFL);
   // A checkpoint asked for before the program has its handler must not end it; a launcher may have its own
   // use.
   ::signal(SIGUSR1, launched ? SIG_DFL : SIG_IGN);

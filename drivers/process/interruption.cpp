@@ -23,12 +23,6 @@ std::atomic<int> g_stop = 0;             ///< signal that asked to stop
 std::atomic<std::int64_t> g_asked_at{};  ///< time of the request on the steady clock; 0: never [ns]
 std::atomic<bool> g_checkpoint = false;
 
-struct StopSignal {
-  int number;
-  const char* name;
-};
-constexpr StopSignal kStopSignals[] = {
-    {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
 constexpr std::size_t kLongest = 1000;
 char g_early[2][kLongest + 1];  ///< while a signal may write one, the other can be replaced
 std::atomic<int> g_which_early = 0;

@@ -8,7 +8,15 @@
 
 namespace tread {
 
-/// Watches SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU and SIGUSR1 while it lives; one object at a time. Until
+/// A signal that asks to stop, and its name.
+struct StopSignal {
+  int number;
+  const char* name;
+};
+inline constexpr StopSignal kStopSignals[] = {
+    {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
+
+/// Watches kStopSignals and SIGUSR1 while it lives; one object at a time. Until
 /// defer() all but SIGUSR1 end the process at once, with ExitCode::resumable and a sentence. After defer()
 /// the first of them only asks, and another one half a second later or more, except SIGXCPU, ends the
 /// process. SIGPIPE is ignored: a run outlives the reader of its progress. SIGXFSZ is ignored too: the write

@@ -65,8 +65,8 @@ std::string wheelset_text(const Model& model) {
   if (!sizes_web(model)) return text;
   text += ", sized by wheel.mass";
   if (model.web_thickness >= kUsualThinnest && model.web_thickness <= kUsualThickest) return text;
-  return text +
-         fmt::format("; wheels have about {:g} to {:g} mm", 1e3 * kUsualThinnest, 1e3 * kUsualThickest);
+  return text + fmt::format("; usual webs have {:g} to {:g} mm, wheel.web_thickness states one",
+                            1e3 * kUsualThinnest, 1e3 * kUsualThickest);
 }
 
 /// "87.57 kN on the rail: 8000 kg sprung, 340 kg unsprung, 586.1 kg of the wheel at 9.81 m/s2"; beside it the

@@ -109,7 +109,8 @@ std::string torque_warning(const Model& model, const RunResults& r) {
         changes);
   if (const std::optional<double> place = settling_place(scene, r))
     return fmt::format(
-        "{}; motion.traction.ramp = 0 lets it act at once on a static state without it, and it counts as "
+        "{}; motion.traction.ramp = \"0 ms\" lets it act at once on a static state without it, and it counts "
+        "as "
         "settled from x = {:.3f} m on: {} gives it the way",
         changes, *place, later_stretch(model, r));
   const double time = settled_torque_time(scene);
@@ -168,7 +169,8 @@ std::string target_warning(const Model& model, const RunResults& r) {
       "F_L / F_N is {:.4f} over the steady stretch (x = {:.3f} to {:.3f} m), motion.traction gives {:.4f}: "
       "F_L is {:+.1f} % off there and F_N {:+.1f} %, as both swing; {}{} gives them the way to settle",
       r.traction_coefficient, r.steady_first, r.steady_last, *r.traction_target, 100 * (longitudinal - 1),
-      100 * (vertical - 1), risen ? "motion.traction.ramp = 0 starts under the steady torque, or " : "",
+      100 * (vertical - 1),
+      risen ? "motion.traction.ramp = \"0 ms\" starts under the steady torque, or " : "",
       later_stretch(model, r));
 }
 

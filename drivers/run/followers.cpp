@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/process/interruption.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "drivers/run/program_hash.hpp"
@@ -247,7 +248,8 @@ std::string Followers::description(std::int64_t steps) const {
 
 void follow(Ranks& ranks) {
   // Rank 0 obeys signals. The launcher sends them to all.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);
+  for (const StopSignal& signal : kStopSignals) std::signal(signal.number, SIG_IGN);
+  std::signal(SIGUSR1, SIG_IGN);
   for (Word word = next_word(ranks); word != Word::dismiss;) {
     if (word == Word::device) {
       std::string name;

@@ -126,8 +126,19 @@ void Rolling::step_to_the_end() {
     look();
   }
   if (simulation_->steps() == fork_step_) keep_for_forks();  // at the run's end
-  // Evaluation and report follow: a kill there must not cost more than they do.
-  if (checkpoint_is_due(kFinalShare)) write_checkpoint();
+  if (checkpoint_is_due(kFinalShare)) keep_the_end();
+}
+
+/// Writes a checkpoint ahead of evaluation and report: a kill there must not cost more than they do. The
+/// results are worth more than it.
+void Rolling::keep_the_end() {
+  wait_for_writer();
+  try {
+    write_checkpoint();
+    wait_for_writer();
+  } catch (const ResourceError& error) {
+    session_->progress.warn(fmt::format("[warning] the end of rolling has no checkpoint: {}", error.what()));
+  }
 }
 
 /// Returns true if the last checkpoint is older than a share of their interval and the energies are balanced.

@@ -52,6 +52,7 @@ class Rolling {
   void keep_for_forks();
   bool checkpoint_is_due(double share) const;
   bool write_checkpoint();
+  void keep_the_end();
   bool write_frame();
   void wait_for_writer();
   void leave(const std::string& why);

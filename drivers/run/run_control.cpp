@@ -123,7 +123,12 @@ void control_run(const CtlOptions& options) {
   const std::filesystem::path& folder = options.folder;
   require_run_folder(folder);
   if (options.action == "status") {
-    if (!std::filesystem::exists(folder / "status.json")) throw InputError(no_run_text(folder));
+    if (!std::filesystem::exists(folder / "status.json"))
+      throw InputError(is_taken(folder)
+                           ? fmt::format("a process works on {} and has shown no status yet; ask "
+                                         "again in a moment",
+                                         folder.string())
+                           : no_run_text(folder));
     print_status(folder);
     return;
   }

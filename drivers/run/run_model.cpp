@@ -44,7 +44,7 @@ void settle(const std::function<void()>& require, const std::string& option, con
     require();
   } catch (const Error& error) {
     if (option != "auto" || chosen_ranks()) throw;
-    progress.say(fmt::format("[device] --device auto: the processor takes the steps: {}", error.what()));
+    progress.warn(fmt::format("[device] --device auto: the processor takes the steps: {}", error.what()));
     choose_device("cpu");
   }
 }

@@ -88,10 +88,10 @@ constexpr std::array kPurposes = {
             "contact.friction is the coefficient of friction, motion.traction.mu the traction coefficient"},
     Purpose{{"penalty", "penalty_stiffness", "contact_stiffness"},
             "contact.penetration_ratio sets the penalty stiffness"},
-    Purpose{{"radius", "wheel_radius"}, "wheel.diameter is twice the wheel's radius"},
+    Purpose{{"wheel.radius", "wheel_radius"}, "wheel.diameter is twice the wheel's radius"},
     Purpose{{"gauge", "track_gauge"},
             "the model is half a track and has no gauge; wheel.lateral_offset selects the place of contact"},
-    Purpose{{"pitch", "sleeper_spacing", "fastening_spacing"},
+    Purpose{{"sleepers.pitch", "fastenings.pitch", "sleeper_spacing", "fastening_spacing"},
             "fastenings.spacing is the distance of the fastenings and of their sleepers"},
     Purpose{{"pad_stiffness", "pad_damping", "pad", "railpad"},
             "fastenings.stiffness and fastenings.damping are those of a fastening with its pad"},
@@ -109,11 +109,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOwnNames
      {kBodyTables, "a body's name"},
      {kProbeTables, "a probe's name"}}};
 
-/// instead_of() the last part of the path that has an answer, among those below all known tables.
+/// instead_of() the path, or the first part of it that has an answer, among those below all known tables.
 std::string instead_of_part(std::string_view path) {
+  std::string found = instead_of(path);
+  if (!found.empty()) return found;
   for (; !path.empty() && !is_table(path); path = table_above(path))
-    if (std::string instead = instead_of(path.substr(path.rfind('.') + 1)); !instead.empty()) return instead;
-  return "";
+    if (std::string instead = instead_of(path.substr(path.rfind('.') + 1)); !instead.empty()) found = instead;
+  return found;
 }
 
 }  // namespace

@@ -80,7 +80,9 @@ TEST_F(Commands, CheckStatesTheWheelLoad) {
   const Outcome outcome = call("check -t 1 --set \"scene.element_size=11 mm\" " + scene("smooth.toml"));
   EXPECT_TRUE(has(outcome.out, "kN on the rail: 8000 kg sprung, 340 kg unsprung, ")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "kg of the wheel at 9.81 m/s2; axle load ")) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "web 66.3 mm, sized by wheel.mass; wheels have about 18 to 40 mm"))
+  EXPECT_TRUE(
+      has(outcome.out,
+          "web 66.3 mm, sized by wheel.mass; usual webs have 18 to 40 mm, wheel.web_thickness states one"))
       << outcome.out;
 }
 

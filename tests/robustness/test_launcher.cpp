@@ -53,7 +53,7 @@ TEST_F(PointFolder, TellsOfAStopThatTheExitCodeHides) {
 }
 
 TEST_F(PointFolder, SignalsOfTheStudysOwnStopAreNoFailure) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU}) {
     EXPECT_TRUE(stopped({0, signal}, true)) << signal;
     EXPECT_FALSE(stopped({0, signal}, false)) << signal;
   }

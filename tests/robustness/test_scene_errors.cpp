@@ -93,6 +93,8 @@ TEST(SceneErrors, WordsOfOtherPrograms) {
         {"motion.gauge.width=\"1 m\"", "unknown key: the model is half a track"},
         {"support.a.fastenin=1", "unknown key (did you mean support.a.fastening?)"},
         {"load.axle_load=\"200 kN\"", "unknown key: vehicle.sprung_mass sets it: half the axle load"},
+        {"curve.radius=\"3 m\"", "unknown key: the track is straight"},
+        {"wheel.radius=\"0.4 m\"", "unknown key: wheel.diameter is twice"},
         {"motion.velocity=\"3 m/s\"", "unknown key: motion.speed is"},
         {"contact.mu=0.3", "unknown key: contact.friction is"},
         {"sleepers.pitch=\"0.6 m\"", "unknown key: fastenings.spacing is"},

@@ -307,6 +307,20 @@ TEST(DialAdvice, ASettingThatChangesNothingIsNotNamed) {
   EXPECT_TRUE(samples::has(advice_text(*advice), "warning: the contact patch has 1.3 elements across"));
 }
 
+TEST(DialAdvice, ASettingThatTheSceneStatesAlreadyIsNamed) {
+  const samples::Program program;
+  DialTable one{
+      "made up", "1mm", {row("base", 2, 0.01, 0.01), row("6mm", 1, 0.05, 0.05), row("1mm", 100, 0, 0)}};
+  one.rows[0].settings.clear();
+  one.rows[1].settings = {"scene.element_size=6 mm"};
+  const AdviceOptions options{"6%", "F_N", program.write("dial.jsonl", dial_lines(one)), "minutes"};
+  for (const char* stated : {"scene.element_size=6 mm", "scene.element_size=3 mm"}) {
+    const std::optional<Advice> advice = advice_on("tyre.toml", options, {stated});
+    ASSERT_TRUE(advice && advice->row);
+    EXPECT_EQ(advice->row->point, "6mm") << stated;
+  }
+}
+
 /// 40 mm, which the user has not stated, do not fit into the block.
 TEST(DialAdvice, ASettingThatNoMeshTakesHasNoCost) {
   const samples::Program program;

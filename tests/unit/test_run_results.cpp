@@ -239,7 +239,7 @@ TEST(Evaluate, ComparesTheTractionWithTheTorque) {
     if (text.empty()) continue;
     const double off = 100 * (80e3 / model.wheel_load() - 1);
     EXPECT_NE(text.find(fmt::format("and F_N {:+.1f} %", off)), std::string::npos) << text;
-    EXPECT_NE(text.find("motion.traction.ramp = 0 starts under the steady torque"), std::string::npos)
+    EXPECT_NE(text.find("motion.traction.ramp = \"0 ms\" starts under the steady torque"), std::string::npos)
         << text;
   }
   EXPECT_FALSE(traction_misses(RunResults()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -77,16 +78,21 @@ std::string measured_text(const Advice& advice) {
                      of_mean ? "; shares of the mean, static load included" : "");
 }
 
-/// Returns true if a row with fewer of the settings makes the same of the scene.
+/// Returns true if settings of the row have no effect on the scene: it lacks their keys, and a row without
+/// them makes the same of it.
 bool has_idle_setting(const ResolvedScene& resolved, const DialRow& row, const DialTable& table) {
-  const auto stated = [&](const std::string& one) {
-    return std::find(row.settings.begin(), row.settings.end(), one) != row.settings.end();
+  const ResolvedScene changed = scene_with(resolved, row.settings, hides_quality(resolved, row));
+  const auto idle = [&](const std::string& setting) {
+    const std::string key = setting.substr(0, setting.find('='));
+    return std::ranges::find(changed.entries, key, &Entry::path) == changed.entries.end();
   };
-  const SceneContent content = scene_content(scene_with(resolved, row.settings, false));
-  return std::any_of(table.rows.begin(), table.rows.end(), [&](const DialRow& other) {
-    return other.point != table.reference && other.settings.size() < row.settings.size() &&
-           std::all_of(other.settings.begin(), other.settings.end(), stated) &&
-           scene_content(scene_with(resolved, other.settings, false)) == content;
+  std::vector<std::string> telling;
+  std::ranges::remove_copy_if(row.settings, std::back_inserter(telling), idle);
+  if (telling.size() == row.settings.size()) return false;
+  return std::ranges::any_of(table.rows, [&](const DialRow& other) {
+    return other.point != table.reference && std::ranges::is_permutation(other.settings, telling) &&
+           scene_content(scene_with(resolved, telling, hides_quality(resolved, other))) ==
+               scene_content(changed);
   });
 }
 
@@ -101,11 +107,12 @@ std::vector<std::string> mesh_warnings(const Model& model, const std::string& qu
   return warnings;
 }
 
-/// Adds warnings and cost of the scene with the row's settings.
+/// Sets warnings and cost of the scene with the row's settings.
 void judge(const ResolvedScene& resolved, const DialRow& row, Advice& advice) {
   advice.hidden_quality = hides_quality(resolved, row);
   advice.warnings.clear();
   advice.cost.reset();
+  advice.no_cost.clear();
   const ResolvedScene other = scene_with(resolved, row.settings, advice.hidden_quality);
   try {
     Model model = scene_model(other.scene, other);

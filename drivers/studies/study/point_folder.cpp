@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "drivers/engine/model/sections.hpp"
+#include "drivers/process/interruption.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
@@ -84,7 +85,7 @@ bool leads_to_the_same_end(std::optional<double> code) {
 }
 
 bool asks_to_stop(int signal) {
-  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+  return std::ranges::find(kStopSignals, signal, &StopSignal::number) != std::end(kStopSignals);
 }
 
 /// Returns true for an exit code by which shells and `timeout` say that they passed such a signal on.

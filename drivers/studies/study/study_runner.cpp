@@ -262,8 +262,11 @@ void StudyRunner::obey() {
   if (request == RunRequest::frame)
     for (const Running& running : running_)
       if (owns_folder(running)) leave(running, RunRequest::frame);
+  if (checkpoint) ask_for_checkpoints();
   if (request) folder_->answer_request();
-  if (!checkpoint) return;
+}
+
+void StudyRunner::ask_for_checkpoints() {
   for (const Running& running : running_) {
     if (plan_->launcher.empty())
       running.process.send(SIGUSR1);

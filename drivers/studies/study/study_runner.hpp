@@ -60,6 +60,7 @@ class StudyRunner {
   void leave_state_to_others(PlannedPoint& point);
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
   void obey();
+  void ask_for_checkpoints();
   void stop(const std::string& why);
   void pass_on_stop();
   bool leave(const Running& running, RunRequest request) const;
