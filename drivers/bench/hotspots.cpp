@@ -212,11 +212,11 @@ const std::vector<Hotspot>& median_run(std::vector<std::vector<Hotspot>>& runs) 
   return *middle;
 }
 
-Measurement of_whole_steps(const std::vector<std::vector<Hotspot>>& runs) {
+Measurement of_whole_steps(const std::vector<std::vector<Hotspot>>& runs, double processor_share) {
   std::vector<double> seconds;
   seconds.reserve(runs.size());
   for (const std::vector<Hotspot>& spots : runs) seconds.push_back(spots.back().seconds);
-  return summarise(seconds);
+  return summarise(seconds, processor_share);
 }
 
 std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& measured, std::int64_t elements,
@@ -336,8 +336,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   for (const PhaseClock& clock : clocks)
     runs.push_back(hotspots_of(scene.model(), clock, steps, limits, of_byte));
   limits.warn_of_busy_cores();
-  Measurement measured = of_whole_steps(runs);
-  measured.processor_share = processor_share;
+  const Measurement measured = of_whole_steps(runs, processor_share);
   const std::vector<Hotspot>& spots = median_run(runs);
   const std::int64_t elements = scene.model().elements();
   const Projection projection(spots, options.cores);

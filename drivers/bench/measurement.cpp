@@ -43,15 +43,14 @@ Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
   seconds.reserve(static_cast<std::size_t>(plan.repetitions));
   const CoreWatch cores;
   for (int i = 0; i < plan.repetitions; ++i) seconds.push_back(time_calls(timed, calls) / calls);
-  Measurement measured = summarise(seconds);
-  measured.processor_share = cores.share();
-  return measured;
+  return summarise(seconds, cores.share());
 }
 
-Measurement summarise(const std::vector<double>& seconds) {
+Measurement summarise(const std::vector<double>& seconds, double processor_share) {
   const auto [fastest, slowest] = std::minmax_element(seconds.begin(), seconds.end());
   const double middle = median(seconds);
-  return {middle, *fastest, (*slowest - *fastest) / middle, static_cast<int>(seconds.size()), 0};
+  return {middle, *fastest, (*slowest - *fastest) / middle, static_cast<int>(seconds.size()),
+          processor_share};
 }
 
 }  // namespace tread

@@ -33,7 +33,7 @@ int warm_up(const TimedCall& timed, const MeasurementPlan& plan);
 /// Time of so many calls without their resets [s]. Without a reset the clock is read only twice.
 double time_calls(const TimedCall& timed, int calls);
 
-/// Median and spread of the seconds of single runs; without their processor time.
-Measurement summarise(const std::vector<double>& seconds);
+/// Median and spread of the seconds of single runs.
+Measurement summarise(const std::vector<double>& seconds, double processor_share);
 
 }  // namespace tread

@@ -64,8 +64,7 @@ StepTimes time_steps(const TimedCall& step, const MeasurementPlan& plan) {
     runs.push_back(time_run(step, calls));
     walls.push_back(runs.back().wall);
   }
-  Measurement measured = summarise(walls);
-  measured.processor_share = cores.share();
+  const Measurement measured = summarise(walls, cores.share());
   std::ranges::sort(runs, {}, &RunTimes::wall);
   const RunTimes& low = runs[(runs.size() - 1) / 2];
   const RunTimes& high = runs[runs.size() / 2];

@@ -16,11 +16,11 @@ struct StopSignal {
 inline constexpr StopSignal kStopSignals[] = {
     {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
 
-/// Watches kStopSignals and SIGUSR1 while it lives; one object at a time. Until
-/// defer() all but SIGUSR1 end the process at once, with ExitCode::resumable and a sentence. After defer()
-/// the first of them only asks, and another one half a second later or more, except SIGXCPU, ends the
-/// process. SIGPIPE is ignored: a run outlives the reader of its progress. SIGXFSZ is ignored too: the write
-/// that went too far reports the error.
+/// Watches kStopSignals and SIGUSR1 while it lives; one object at a time. Until defer() all but SIGUSR1 end
+/// the process at once, with ExitCode::resumable and a sentence. After defer() the first of them only asks,
+/// and another one half a second later or more, except SIGXCPU, ends the process. SIGPIPE is ignored: a run
+/// outlives the reader of its progress. SIGXFSZ is ignored too: the write that went too far reports the
+/// error.
 class Interruption {
  public:
   /// `early` and `late`: the sentences, before defer() and after it. `asked`: what the first signal says

@@ -91,13 +91,11 @@ std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& 
   const Scene& scene = model.scene;
   const HertzPatch& hertz = model.hertz_patch;
   double area = std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y;
-  double pressure = hertz.max_pressure;
   std::string remark = fmt::format("Hertz for radii {} and {} mm", readable(1e3 * model.wheel_radius(), 4),
                                    readable(1e3 * model.hertz_radius_y, 4));
   if (model.line_width > 0) {
     if (model.wheel_load() <= 0) return rows;
     area = 2 * model.line_semi_axis() * model.line_width;
-    pressure = 4 / std::numbers::pi * model.wheel_load() / area;
     remark = fmt::format("a cylinder of radius {} mm on a plane {} mm wide",
                          readable(1e3 * model.wheel_radius(), 4), readable(1e3 * model.line_width, 4));
   }
@@ -108,8 +106,8 @@ std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& 
   else if (scene.wheel->profile != "arc" || scene.rail->profile != "box")
     remark += "; the profiles' curvature varies over the patch: not Hertzian";
   rows.push_back({"Patch area, static", "mm²", 1e6 * area, 1e6 * r.preload.contact.area, remark});
-  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * pressure, 1e-6 * r.preload.max_pressure,
-                  "nodal average; " + remark});
+  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * model.hertz_pressure(),
+                  1e-6 * r.preload.max_pressure, "nodal average; " + remark});
   return rows;
 }
 

@@ -49,6 +49,10 @@ std::string tie_text(const Model& model, std::size_t i) {
                      grouped(static_cast<std::int64_t>(made.nodes.size())), who, 1e3 * made.farthest);
 }
 
+bool has_wheelset(const Model& model) {
+  return model.wheelset && model.scene.wheel->shape == "half_wheelset";
+}
+
 /// Returns true where the program chooses the web's thickness.
 bool sizes_web(const Model& model) {
   const WheelSpec& wheel = *model.scene.wheel;
@@ -79,10 +83,9 @@ std::string load_text(const Model& model) {
         fmt::format("{:.6g} kg sprung, {:.6g} kg unsprung, ", vehicle->sprung_mass, vehicle->unsprung_mass);
   if (scene.load) parts = fmt::format("{:.6g} kN pressed on the wheel, ", 1e-3 * scene.load->wheel_load);
   const double load = model.wheel_load();
-  return fmt::format(
-      "{:.4g} kN on the rail: {}{:.5g} kg of the wheel at {:.4g} m/s2{}", 1e-3 * load, parts,
-      model.wheelset->mass(), scene.gravity,
-      scene.wheel->shape == "half_wheelset" ? fmt::format("; axle load {:.4g} kN", 2e-3 * load) : "");
+  return fmt::format("{:.4g} kN on the rail: {}{:.5g} kg of the wheel at {:.4g} m/s2{}", 1e-3 * load, parts,
+                     model.wheelset->mass(), scene.gravity,
+                     has_wheelset(model) ? fmt::format("; axle load {:.4g} kN", 2e-3 * load) : "");
 }
 
 }  // namespace
@@ -119,8 +122,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("",
          fmt::format("replaces the surface of the head; the section below stays that of {}", rail->section));
   }
-  const bool flexible = model.wheelset && model.scene.wheel->shape == "half_wheelset";
-  if (flexible) line("Wheelset", wheelset_text(model));
+  if (has_wheelset(model)) line("Wheelset", wheelset_text(model));
   if (model.wheel_load() > 0) line("Load", load_text(model));
   const char* of_body = "Body";
   for (const auto& [name, spec] : model.scene.bodies) {
@@ -168,7 +170,7 @@ Json check_json(const Model& model, const Estimate& e) {
   for (const SweptBlock& block : model.mesh.blocks) add_part(block);
   for (const HexBody& body : model.mesh.bodies) add_part(body);
   if (model.wheel_load() > 0) json["wheel_load_N"] = model.wheel_load();
-  if (model.wheelset && model.scene.wheel->shape == "half_wheelset") {
+  if (has_wheelset(model)) {
     json["wheelset"] = {{"mass_kg", model.wheelset->mass()},
                         {"polar_inertia_kg_m2", model.wheelset->inertia()},
                         {"transverse_inertia_kg_m2", model.wheelset->transverse_inertia()},

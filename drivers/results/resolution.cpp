@@ -210,18 +210,12 @@ std::string branch_warning(const Model& model, const Material& material) {
       material.name, 100 * rise, 1e-3 * frequency, 100 * kStiffer, 1.01e-3 * enough);
 }
 
-/// Largest pressure of Hertz under the static load, p_0 [Pa].
-double hertz_pressure(const Model& model) {
-  if (model.line_width == 0) return model.hertz_patch.max_pressure;
-  return 2 / std::numbers::pi * model.line_load() / model.line_semi_axis();
-}
-
 /// Sentence where a material yields under the wheel. [docs/records/verification.md]
 std::string plastic_warning(const Model& model, const Material& material) {
   constexpr double kFirstYield = 1.6;  ///< p_0 over the yield stress [theory.md, Plasticity]
   constexpr double kBeyondRails = 6;   ///< p_0 over the yield stress that no wheel or rail bears
   if (material.law != "j2" || model.wheel_load() <= 0) return "";
-  const double pressure = hertz_pressure(model);
+  const double pressure = model.hertz_pressure();
   const double ratio = pressure / material.yield_stress;
   if (ratio <= kFirstYield) return "";
   return fmt::format(
@@ -244,7 +238,7 @@ std::string memory_warning(const Model& model) {
   const double shear = model.scene.elastic_pair().alike().shear_modulus();                // [Pa]
   const double radiation = 0.5 * std::sqrt(shear * model.scene.head_material().density);  // G / 2c [Pa s/m]
   // V p |df/dv| is largest at the slip speed v_c.
-  const double fall = (contact.friction - contact.friction_fast) / std::numbers::e * hertz_pressure(model);
+  const double fall = (contact.friction - contact.friction_fast) / std::numbers::e * model.hertz_pressure();
   const double number = 2 / shear * (fall - radiation * contact.friction_speed);  // L times wavenumber [-]
   const double least = kElementsOfSlip * model.sizes.contact * number / (2 * std::numbers::pi);
   if (contact.friction_memory >= least) return "";

@@ -116,8 +116,7 @@ std::string free_foot_warning(const Scene& scene) {
   if (motion.traction_mu.value_or(0) == 0 && motion.traction_torque.value_or(0) == 0) return "";
   return fmt::format(
       "fastenings.along = \"free\" under motion.traction: its ends alone hold the rail of {:.4g} m along x, "
-      "so "
-      "that F_L, creepage and frictional work depend on rail.length; state fastenings.along = \"held\" or "
+      "so that F_L, creepage and frictional work depend on rail.length; state fastenings.along = \"held\" or "
       "\"elastic\"",
       scene.rail->length);
 }

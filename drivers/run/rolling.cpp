@@ -18,9 +18,8 @@ namespace tread {
 
 namespace {
 
-constexpr int kLookInterval = 16;  ///< steps between two looks at the clock
-constexpr double kFinalShare =
-    0.05;  ///< age of a checkpoint over their interval at which the end has its own
+constexpr int kLookInterval = 16;     ///< steps between two looks at the clock
+constexpr double kFinalShare = 0.05;  ///< age of a checkpoint over their interval: the end has its own then
 constexpr double kRequestInterval = 0.5;  ///< time between two looks into the folder [s]
 
 std::string instant(double time, std::int64_t steps) {

@@ -1,5 +1,5 @@
 #pragma once
-// What lies on a rail, and how far a rail has to reach, for messages.
+// Places on a rail, and how far a rail has to reach, for messages.
 
 #include <optional>
 #include <string>

@@ -80,11 +80,11 @@ TEST(MadeUpBlocks, HaveTheWantedSize) {
 }
 
 TEST(Measurement, TakesTheMedianAndTheSpread) {
-  const Measurement odd = summarise({3, 1, 2});
+  const Measurement odd = summarise({3, 1, 2}, 1);
   EXPECT_EQ(odd.seconds, 2);
   EXPECT_EQ(odd.spread, 1);
   EXPECT_EQ(odd.fastest, 1);
-  EXPECT_EQ(summarise({4, 1, 2, 3}).seconds, 2.5);
+  EXPECT_EQ(summarise({4, 1, 2, 3}, 1).seconds, 2.5);
   int calls = 0;
   int resets = 0;
   const Measurement measured = measure({[&] { ++calls; }, [&] { ++resets; }}, {3, 0});

@@ -283,8 +283,7 @@ void Model::build_wheel_parts() {
 }
 
 double Model::wheel_load() const {
-  if (!scene.wheel) return 0;
-  return journal_load() + wheelset->mass() * scene.gravity;
+  return scene.wheel ? journal_load() + wheelset->mass() * scene.gravity : 0;
 }
 
 double Model::journal_load() const {
@@ -293,6 +292,10 @@ double Model::journal_load() const {
 
 double Model::line_semi_axis() const {
   return tread::line_semi_axis(wheel_radius(), scene.elastic_pair().contact_modulus(), line_load());
+}
+
+double Model::hertz_pressure() const {
+  return line_width > 0 ? 2 / std::numbers::pi * line_load() / line_semi_axis() : hertz_patch.max_pressure;
 }
 
 HertzPatch Model::scale_patch() const {

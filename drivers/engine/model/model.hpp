@@ -80,7 +80,8 @@ struct Model {
   double wheel_load() const;                                      ///< static vertical contact force [N]
   double line_load() const { return wheel_load() / line_width; }  ///< of a line contact [N/m]
   double line_semi_axis() const;                                  ///< of a line contact [m]
-  double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
+  double hertz_pressure() const;  ///< largest of Hertz under wheel_load(), also of a line contact [Pa]
+  double journal_load() const;    ///< the part of it that comes in at the journal: vehicle or load [N]
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
   std::int64_t elements() const;
   std::int64_t nodes() const;

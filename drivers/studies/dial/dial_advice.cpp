@@ -107,8 +107,9 @@ std::vector<std::string> mesh_warnings(const Model& model, const std::string& qu
   return warnings;
 }
 
-/// Sets warnings and cost of the scene with the row's settings.
-void judge(const ResolvedScene& resolved, const DialRow& row, Advice& advice) {
+/// Sets warnings of the scene with the row's settings, and its cost where there are none or `takes_any`.
+/// Returns true where there are none or it takes any.
+bool takes(const ResolvedScene& resolved, const DialRow& row, bool takes_any, Advice& advice) {
   advice.hidden_quality = hides_quality(resolved, row);
   advice.warnings.clear();
   advice.cost.reset();
@@ -117,10 +118,12 @@ void judge(const ResolvedScene& resolved, const DialRow& row, Advice& advice) {
   try {
     Model model = scene_model(other.scene, other);
     advice.warnings = mesh_warnings(model, advice.quantity);
+    if (!takes_any && !advice.warnings.empty()) return false;
     advice.cost = estimate(model, file_bytes(other.source));
   } catch (const Error& error) {
     advice.no_cost = error.what();
   }
+  return true;
 }
 
 /// The table that the options name. InputError for minutes of the shipped one.
@@ -153,8 +156,7 @@ std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions&
       table.rows.erase(table.rows.begin() + (row - table.rows.data()));
       continue;
     }
-    judge(resolved, *row, advice);
-    if (advice.warnings.empty() || !options.dial.empty()) {
+    if (takes(resolved, *row, !options.dial.empty(), advice)) {
       advice.row = *row;
       break;
     }

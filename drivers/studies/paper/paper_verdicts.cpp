@@ -263,8 +263,7 @@ const std::vector<Conclusion>& paper_conclusions() {
        "The contact may oscillate between rolling-sliding and full sliding, with a significantly higher "
        "creepage",
        "the whole patch slides on a part of the way; largest creepage at N_cr outside the patch above 1.5 "
-       "times the "
-       "steady one",
+       "times the steady one",
        oscillates_to_full_sliding},
       {4, "Fluctuations of Von Mises stress and frictional work grow with the traction coefficient",
        "both ranges grow from mu 0.1 to 0.5", grows_with_traction},
