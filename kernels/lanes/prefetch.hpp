@@ -15,4 +15,11 @@ TREAD_INLINE void prefetch_vector(const Value* at) {
     __builtin_prefetch(at + value, to_write);
 }
 
+/// Fetches `count` values that lie one behind another.
+template <class Value>
+TREAD_INLINE void prefetch_row(const Value* at, int count) {
+  for (int value = 0; value < count; value += 64 / static_cast<int>(sizeof(Value)))
+    __builtin_prefetch(at + value);
+}
+
 }  // namespace tread

@@ -60,6 +60,19 @@ class TileFront {
     }
   }
 
+  /// What the loop reads by node or quad alone: which nodes are deferred and which quads have moved nodes, in
+  /// the tiles that come next; which shifts the nodes of the next tile have. Rows of a tile lie behind those
+  /// of the tile before.
+  TREAD_INLINE void prefetch_marks() const {
+    const int nodes = elements_.quads[elements_.quad_count - 1].closed;
+    const TileMotion<Real, U>* const last = view_.motion[view_.tiles - 1];
+    if (last != nullptr) prefetch_row(last->deferred + nodes, view_.tiles * nodes);
+    if (elements_.perturbed == nullptr) return;
+    prefetch_row(elements_.perturbed + view_.tiles * elements_.quad_count, elements_.quad_count);
+    for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile)
+      if (const int* const shifted = shifted_behind(tile)) prefetch_row(shifted, nodes);
+  }
+
   /// A node's displacements in the next tile and what adds to them, in this tile its forces, or its masses
   /// and velocities: all that comes from memory, in an order that the processor does not foresee.
   TREAD_INLINE void prefetch(int node) const {
@@ -68,6 +81,8 @@ class TileFront {
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
       prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
       if (adds) prefetch_vector<0, first>(next(view_.added, view_.added_next, tile) + at);
+      if (const int* const shifted = elements_.perturbed != nullptr ? shifted_behind(tile) : nullptr)
+        if (shifted[node] > 0) prefetch_vector<0>(elements_.shifts[shifted[node]].shift[0]);
       if (!moves_at_once(node, tile)) {
         prefetch_vector<1>(view_.f + tile * view_.stride + at);
         continue;
@@ -88,6 +103,12 @@ class TileFront {
   template <class Value>
   TREAD_INLINE const Value* next(const Value* field, const Value* field_next, int tile) const {
     return tile + 1 == view_.tiles ? field_next : field + (tile + 1) * view_.stride;
+  }
+
+  /// Shifts of the tile behind `tile` along the sweep, by node; null: none.
+  TREAD_INLINE const int* shifted_behind(int tile) const {
+    const int behind = tile + 1;
+    return behind < kTiles && behind < view_.tiles ? elements_.shifted[behind] : elements_.shifted_next;
   }
 
   /// A part of the lanes of a field whose first tile's values are at `at`.

@@ -51,6 +51,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
   }
 
   void run() const {
+    prefetch_marks();
     const FrontPlan::Node* open = elements_.open;
     const FrontPlan::Node* close = elements_.close;
     for (int i = 0; i < elements_.quad_count; ++i) {
@@ -67,7 +68,8 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
  private:
   using Front::elements_, Front::view_;
   using Front::kAbreast, Front::kRateRow, Front::kWidth;
-  using Front::open_node, Front::close_node, Front::prefetch, Front::corner, Front::shift_corner;
+  using Front::open_node, Front::close_node, Front::prefetch, Front::prefetch_marks, Front::corner,
+      Front::shift_corner;
   using Register = typename Front::Register;
   using Half = typename Front::Half;
   using Sums = typename Vector<double, kWidth>::type;
