@@ -2,6 +2,11 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "core/page_vector.hpp"
 
@@ -44,6 +49,33 @@ TEST(PageVector, KeepsMarkedGroups) {
     EXPECT_EQ(values[page * kValues + 1], page == 2 || page == 3 ? 0.0 : 1.0) << page;
   keep_marked(values, {}, kGroup);  // no marks: of all groups
   EXPECT_EQ(std::count(values.begin(), values.end(), 1.0), std::ptrdiff_t{3 * kValues});
+}
+
+/// Flags that the kernel shows for the mapping that holds an address.
+std::string flags_at(const void* address) {
+  const auto at = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream maps("/proc/self/smaps");
+  bool inside = false;
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t first = 0, last = 0;
+    char dash = 0;
+    std::istringstream range(line);
+    if (range >> std::hex >> first >> dash >> last && dash == '-') inside = first <= at && at < last;
+    if (inside && line.starts_with("VmFlags:")) return line + " ";
+  }
+  return {};
+}
+
+TEST(PageVector, AsksForLargePages) {
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage"))
+    GTEST_SKIP() << "this kernel has no pages of 2 MiB";
+  PageVector<double> values(1000 * kValues), others(1000 * kValues);
+  use_large_pages(values);
+  EXPECT_NE(flags_at(values.data()).find(" hg "), std::string::npos);
+  EXPECT_EQ(flags_at(others.data()).find(" hg "), std::string::npos);
+  EXPECT_EQ(values[values.size() - 1], 0.0);
+  PageVector<double> none;
+  use_large_pages(none);
 }
 
 }  // namespace

@@ -178,6 +178,14 @@ class PreciseFields : public NodeFields {
   const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
   const BasicInternalForce<Real, U>& internal() const { return *operator_; }
   const Real* inverse_masses() const { return inverse_mass_.data(); }
+  /// For fields that nothing has touched and that steps use as a whole.
+  void use_large_pages() {
+    tread::use_large_pages(inverse_mass_);
+    tread::use_large_pages(u_);
+    tread::use_large_pages(v_);
+    tread::use_large_pages(f_);
+    if (q_) tread::use_large_pages(q_->values());
+  }
   /// Gets the masses of nodes that steps move (groups_with_mass()); the memory of others stays untouched.
   /// Nodes on which more than elements acts then move after the elements. Returns inverse_masses().
   const Real* take_masses() {

@@ -16,6 +16,7 @@ class ProcessorFields final : public PreciseFields<Real, U> {
  public:
   explicit ProcessorFields(const Model& model)
       : PreciseFields<Real, U>(model), patch_tiles_(model, this->joined_tiles()) {
+    this->use_large_pages();
     this->take_masses();
     // Memory lies near the thread that touches it first: the one that begins with these values in steps.
     for_chunks(3 * model.mesh.slots, [this](std::int64_t first, std::int64_t last) {
