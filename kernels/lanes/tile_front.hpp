@@ -60,15 +60,15 @@ class TileFront {
     }
   }
 
-  /// What the loop reads by node or quad alone: which nodes are deferred and which quads have moved nodes, in
-  /// the tiles that come next; which shifts the nodes of the next tile have. Rows of a tile lie behind those
-  /// of the tile before.
+  /// Lists by node or quad that the loop reads once a step: deferred nodes and quads with moved nodes of the
+  /// tiles that come next, whose rows lie behind these, and the shifts' numbers in the tile behind each.
+  /// Behind the last row there is nothing to fetch, and nothing is read.
   TREAD_INLINE void prefetch_marks() const {
     const int nodes = elements_.quads[elements_.quad_count - 1].closed;
     const TileMotion<Real, U>* const last = view_.motion[view_.tiles - 1];
     if (last != nullptr) prefetch_row(last->deferred + nodes, view_.tiles * nodes);
-    if (elements_.perturbed == nullptr) return;
-    prefetch_row(elements_.perturbed + view_.tiles * elements_.quad_count, elements_.quad_count);
+    if (elements_.perturbed != nullptr)
+      prefetch_row(elements_.perturbed + view_.tiles * elements_.quad_count, elements_.quad_count);
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile)
       if (const int* const shifted = shifted_behind(tile)) prefetch_row(shifted, nodes);
   }
@@ -81,8 +81,8 @@ class TileFront {
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
       prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
       if (adds) prefetch_vector<0, first>(next(view_.added, view_.added_next, tile) + at);
-      if (const int* const shifted = elements_.perturbed != nullptr ? shifted_behind(tile) : nullptr)
-        if (shifted[node] > 0) prefetch_vector<0>(elements_.shifts[shifted[node]].shift[0]);
+      if (const int* const shifted = shifted_behind(tile); shifted != nullptr && shifted[node] > 0)
+        prefetch_vector<0>(elements_.shifts[shifted[node]].shift[0]);
       if (!moves_at_once(node, tile)) {
         prefetch_vector<1>(view_.f + tile * view_.stride + at);
         continue;
